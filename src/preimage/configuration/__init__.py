@@ -1,0 +1,1 @@
+"""Configuration space: obstacles, contact space, regions."""

@@ -1,0 +1,35 @@
+"""Configuration space: where the robot's reference point may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from preimage.configuration.contact import ContactSpace
+from preimage.configuration.contact_set import ContactSet
+from preimage.configuration.region import Region
+from preimage.geometry.area import Area
+from preimage.geometry.tolerance import Tolerance
+
+
+@dataclass(frozen=True, eq=False)
+class ConfigurationSpace:
+    """Free space in the window, its border, and the tolerance that goes with its scale.
+
+    Parameters
+    ----------
+    window : `xmin, ymin, xmax, ymax`.
+    free : free space, closed; noded on the tolerance's grid.
+    obstacles : the C-obstacles united, clipped to a box somewhat larger than the window.
+    contact : the border of `free`, loop by loop.
+    """
+
+    window: tuple[float, float, float, float]
+    tolerance: Tolerance
+    free: Area
+    obstacles: Area
+    contact: ContactSpace
+
+    @property
+    def valid(self) -> Region:
+        """All of valid space: free space and contact space."""
+        return Region(self.free, ContactSet.whole(self.contact))

@@ -1,0 +1,1 @@
+"""The plane; knows no robot."""

@@ -1,0 +1,272 @@
+"""Areas and segments (+) a disc: straight parts exact, arcs replaced on the outer side.
+
+An arc becomes a polyline of tangents to it, so that what is grown contains the true sum, what is
+shrunk lies inside the true difference, and neither is further off than `arc_tolerance` times the
+radius (theory 5). Tangents parallel to given rays are always among them: where a cone ray touches
+the true arc, it touches the polyline too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from itertools import pairwise
+from math import cos, sin
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from preimage.geometry.angles import TAU
+from preimage.geometry.area import Area
+from preimage.geometry.border import border
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+Bools = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+Pieces = NDArray[np.object_]
+"""Convex polygons of shapely's, to be united; only the room `geometry` looks into them."""
+
+_NONE: Pieces = np.empty(0, dtype=np.object_)
+
+ARC_TOLERANCE = 0.005
+
+FEW_PAIRS = 250_000
+"""Up to so many pairs of boxes are compared one by one, faster than a tree is built."""
+
+
+@lru_cache(maxsize=4096)
+def tangent_normals(arc_tolerance: float, touch: tuple[float, ...] = ()) -> Floats:
+    """The angles of the normals of tangents to a circle that follow it all around.
+
+    Parameters
+    ----------
+    arc_tolerance : how far the corners of the polygon of tangents may be from the circle, as a
+        fraction of its radius; positive.
+    touch : angles of rays: a tangent is parallel to each, on either side of the circle; radians.
+
+    Returns
+    -------
+    (k,) ascending, in [0, 2 pi), radians; not to be written to.
+
+    >>> len(tangent_normals(0.005)), len(tangent_normals(0.005, (0.1,)))
+    (32, 32)
+    """
+    widest = 2.0 * np.arccos(1.0 / (1.0 + arc_tolerance))
+    quarter = 0.5 * np.pi
+    fixed = np.array([turn for ray in touch for turn in (ray - quarter, ray + quarter)] or [0.0])
+    fixed = np.sort(np.mod(fixed, TAU))
+    rounding = 4 * np.finfo(float).eps * TAU
+    apart = np.append(np.diff(fixed), fixed[0] + TAU - fixed[-1])
+    if len(fixed) > 1:  # rays that are the same up to rounding
+        fixed = fixed[apart > rounding]
+        apart = np.append(np.diff(fixed), fixed[0] + TAU - fixed[-1])
+    parts = np.maximum(np.ceil((apart - rounding) / widest), 1.0).astype(np.intp)
+    within = np.arange(np.sum(parts)) - np.repeat(np.cumsum(parts) - parts, parts)
+    angles = np.repeat(fixed, parts) + np.repeat(apart / parts, parts) * within
+    angles = np.sort(np.mod(angles, TAU))
+    angles.flags.writeable = False
+    return angles
+
+
+def outer_stadiums(
+    starts: Floats,
+    ends: Floats,
+    radius: float,
+    arc_tolerance: float = ARC_TOLERANCE,
+    touch: Sequence[float] = (),
+) -> Area:
+    """The segments (+) D(radius), from outside: the union of one convex polygon a segment.
+
+    Parameters
+    ----------
+    starts, ends : (m, 2); a segment may be a point.
+    radius : at 0, or without segments, the sum has no area.
+    arc_tolerance, touch : see `tangent_normals`; tangents parallel to each segment are added, so
+        that the straight parts are exact.
+
+    >>> capsule = outer_stadiums(np.array([[0.0, 0.0]]), np.array([[3.0, 0.0]]), 1.0)
+    >>> np.round(capsule.bounds, 9).tolist(), bool(6 + np.pi < capsule.measure < 6.02 + np.pi)
+    ([-1.0, -1.0, 4.0, 1.0], True)
+    """
+    pieces = stadium_pieces(starts, ends, radius, tangent_normals(arc_tolerance, tuple(touch)))
+    return Area.of(shapely.union_all(pieces)) if len(pieces) else Area.empty()
+
+
+def grow(
+    area: Area,
+    radius: float,
+    arc_tolerance: float = ARC_TOLERANCE,
+    touch: Sequence[float] = (),
+) -> Area:
+    """The area (+) D(radius), from outside; the area itself at radius 0.
+
+    >>> bool(8 + np.pi < grow(Area.box(0, 0, 1, 3), 1.0).measure - 3.0 < 8.02 + np.pi)
+    True
+    """
+    points, following = border(area)
+    normals = tangent_normals(arc_tolerance, tuple(touch))
+    pieces = outward_pieces(points, following, radius, normals)
+    if not len(pieces):
+        return area
+    return Area.of(shapely.union_all(np.append(pieces, area.geometry)))
+
+
+def shrunk_by(area: Area, *pieces: Pieces) -> Area:
+    """The area without the interiors of the pieces; those that miss it cost little."""
+    together = np.concatenate(pieces) if pieces else _NONE
+    if not len(together) or area.is_empty:
+        return area
+    shapely.prepare(area.geometry)
+    together = together[shapely.intersects(area.geometry, together)]
+    if not len(together):
+        return area
+    return Area.of(shapely.difference(area.geometry, shapely.union_all(together)))
+
+
+def outward_pieces(
+    points: Floats,
+    following: Ints,
+    radius: float,
+    normals: Floats,
+    chosen: Bools | None = None,
+    depth: float = 0.0,
+) -> Pieces:
+    """What an area gains by (+) D(radius), in convex pieces: rectangles on its edges, and sectors.
+
+    A point outside the area is nearest either to the inside of an edge, and lies in the rectangle
+    on that edge's outer side, or to a vertex where the area is convex, and lies in the sector
+    between the normals of the two edges. Where the area is reflex the rectangles overlap.
+
+    Parameters
+    ----------
+    points, following : the border of the area, which is on the left (see `border`).
+    normals : of the tangents that replace arcs (see `tangent_normals`).
+    chosen : (n,) the edges and vertices that are wanted; all by default.
+    depth : how far the rectangles reach into the area, to hide what rounding did to its border.
+    """
+    if not len(points) or radius <= 0.0:
+        return _NONE
+    along = points[following] - points
+    along /= np.hypot(along[:, 0], along[:, 1])[:, None]
+    outward = along[:, ::-1] * (1.0, -1.0)
+    before = np.empty(len(points), dtype=np.intp)
+    before[following] = np.arange(len(points))
+    edges = np.arange(len(points)) if chosen is None else np.flatnonzero(chosen)
+
+    start, end, side = points[edges], points[following[edges]], outward[edges]
+    corners = np.empty((len(edges), 4, 2))
+    corners[:, 0], corners[:, 1] = start - depth * side, end - depth * side
+    corners[:, 2], corners[:, 3] = end + radius * side, start + radius * side
+    rectangles = np.asarray(shapely.polygons(corners), dtype=np.object_)
+
+    first = outward[before[edges]]
+    convex = first[:, 0] * side[:, 1] > first[:, 1] * side[:, 0]
+    # a turn so slight that the rectangles meet all the same
+    convex &= np.any(start + radius * first != corners[:, 3], axis=1)
+    if not np.any(convex):
+        return rectangles
+    sectors = _sectors(start[convex], first[convex], side[convex], radius, normals)
+    return np.concatenate((rectangles, sectors))
+
+
+def stadium_pieces(starts: Floats, ends: Floats, radius: float, normals: Floats) -> Pieces:
+    """One convex polygon around each segment (+) D(radius), a segment's own tangents included."""
+    if not len(starts) or radius <= 0.0:
+        return _NONE
+    along = ends - starts
+    length = np.hypot(along[:, 0], along[:, 1])
+    long = length > np.finfo(float).tiny  # any direction will do for a point
+    along = np.where(long[:, None], along, (1.0, 0.0))
+    along /= np.where(long, length, 1.0)[:, None]
+    right = np.stack((along[:, 1], -along[:, 0]), axis=1)
+    # the normals from the right side of the segment around its end to the left side, and back
+    base = np.arctan2(right[:, 1], right[:, 0])
+    turns = np.mod(normals[None, :] - base[:, None], TAU)
+    own = np.broadcast_to((0.0, np.pi), (len(starts), 2))
+    turns = np.sort(np.concatenate((own, turns), axis=1), axis=1)
+    angles = base[:, None] + turns
+    vectors = np.stack((np.cos(angles), np.sin(angles)), axis=2)
+    vectors = np.where((turns == 0.0)[..., None], right[:, None, :], vectors)
+    vectors = np.where((turns == np.pi)[..., None], -right[:, None, :], vectors)
+    following = np.roll(vectors, -1, axis=1)
+    centers = np.where((turns < np.pi)[..., None], ends[:, None, :], starts[:, None, :])
+    polygons = shapely.polygons(centers + radius * _corners(vectors, following))
+    return np.asarray(polygons, dtype=np.object_)
+
+
+def _sectors(
+    centers: Floats, first: Floats, second: Floats, radius: float, normals: Floats
+) -> Pieces:
+    """Sectors of discs, from outside, counter-clockwise between unit vectors less than pi apart."""
+    base = np.arctan2(first[:, 1], first[:, 0])
+    turn = np.mod(np.arctan2(second[:, 1], second[:, 0]) - base, TAU)
+    turns = np.mod(normals[None, :] - base[:, None], TAU)
+    rings: list[tuple[float, float]] = []
+    which: list[int] = []
+    for place, ((x, y), one, other) in enumerate(
+        zip(centers.tolist(), first.tolist(), second.tolist(), strict=True)
+    ):
+        inner = np.sort(turns[place, turns[place] < turn[place]]) + base[place]
+        sides = [one, *((cos(angle), sin(angle)) for angle in inner.tolist()), other]
+        ring = [(x, y), (x + radius * one[0], y + radius * one[1])]
+        for (ux, uy), (vx, vy) in pairwise(sides):
+            scale = radius / (1.0 + ux * vx + uy * vy)
+            ring.append((x + scale * (ux + vx), y + scale * (uy + vy)))
+        ring.append((x + radius * other[0], y + radius * other[1]))
+        rings.extend(ring)
+        which.extend([place] * len(ring))
+    return np.asarray(shapely.polygons(shapely.linearrings(rings, indices=which)), np.object_)
+
+
+def _corners(first: Floats, second: Floats) -> Floats:
+    """Where the tangents with these normals to the unit circle meet, (..., 2)."""
+    towards = first + second
+    cosine: Floats = np.sum(first * second, axis=-1)
+    corner: Floats = towards / (1.0 + cosine)[..., None]
+    return corner
+
+
+def without_slivers(area: Area, tolerance: float) -> Area:
+    """The area without its polygons that are slivers, no thicker than twice the tolerance.
+
+    What lies within the tolerance of a border of length l has no more area than l times the
+    tolerance: most polygons are thick by that alone.
+    """
+    polygons = shapely.get_parts(area.geometry)
+    thick = shapely.area(polygons) > tolerance * shapely.length(polygons)
+    if np.all(thick):
+        return area
+    thin = np.flatnonzero(~thick)
+    thick[thin] = ~shapely.is_empty(shapely.buffer(polygons[thin], -tolerance, quad_segs=1))
+    return Area.of(shapely.multipolygons(polygons[thick])) if np.any(thick) else Area.empty()
+
+
+def box_pairs(
+    low: Floats, high: Floats, other_low: Floats, other_high: Floats, few: int = FEW_PAIRS
+) -> tuple[Indices, Indices]:
+    """The pairs of boxes, one of each kind, that meet; touching counts.
+
+    Parameters
+    ----------
+    low, high, other_low, other_high : (k, 2) and (j, 2) corners of the boxes.
+    few : how many pairs are compared one by one before a tree is built.
+
+    Returns
+    -------
+    Two arrays of equal length, sorted by the first.
+    """
+    if len(low) * len(other_low) <= few:
+        meets = (
+            (low[:, None, 0] <= other_high[None, :, 0])
+            & (low[:, None, 1] <= other_high[None, :, 1])
+            & (high[:, None, 0] >= other_low[None, :, 0])
+            & (high[:, None, 1] >= other_low[None, :, 1])
+        )
+        first, second = np.nonzero(meets)
+        return first, second
+    tree = shapely.STRtree(shapely.box(*other_low.T, *other_high.T))
+    pairs = tree.query(shapely.box(*low.T, *high.T))
+    order = np.lexsort((pairs[1], pairs[0]))
+    return pairs[0][order], pairs[1][order]

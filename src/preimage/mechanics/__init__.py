@@ -1,0 +1,1 @@
+"""The generalised damper with Coulomb friction: normals and angles, no places."""

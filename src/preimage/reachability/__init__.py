@@ -1,0 +1,1 @@
+"""Where a motion goes: backprojections and forward projections."""

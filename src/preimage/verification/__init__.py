@@ -1,0 +1,1 @@
+"""Whether a strategy is true, by code of its own."""

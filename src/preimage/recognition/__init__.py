@@ -1,0 +1,1 @@
+"""What a motion can tell: readings, kernels, termination conditions."""

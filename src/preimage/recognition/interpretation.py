@@ -1,0 +1,120 @@
+"""What the sensors tell: `K_v(q, f)`, and whether that lies in a target (theory 5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from preimage.configuration.contact import Bools, ContactSpace
+from preimage.configuration.contact_set import ContactSet
+from preimage.configuration.space import ConfigurationSpace
+from preimage.geometry.border import border
+from preimage.recognition.outside import Outside, border_segments, contact_segments
+from preimage.recognition.readings import Readings
+from preimage.recognition.segments import Segments, distances, stretches
+from preimage.task.uncertainty import Uncertainty
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Interpretation:
+    """`K_v(q, f)`: the configurations that are consistent with a reading of both sensors.
+
+    Parameters
+    ----------
+    position : q.
+    radius : rho: what is consistent lies in the open disc of this radius around q, or at q if 0.
+    features : (2n+1,) which features can read f, numbered as in `Readings`.
+    """
+
+    position: Point
+    radius: float
+    features: Bools
+
+    @property
+    def free(self) -> bool:
+        """Whether free space in the disc is consistent."""
+        return bool(self.features[-1])
+
+    def contact(self, contact: ContactSpace) -> ContactSet:
+        """The part of contact space that is consistent, closed on each edge; for pictures."""
+        n = len(contact)
+        edge = np.flatnonzero(self.features[:n]).astype(np.int32)
+        corner = np.flatnonzero(self.features[n:-1]).astype(np.int32)
+        q = np.array([self.position])
+        low, high = np.zeros(len(edge)), contact.length[edge]
+        if np.isfinite(self.radius):
+            ends = np.broadcast_to(q, (len(edge), 2))
+            near, far = stretches(contact, edge, Segments(ends, ends, edge), self.radius)
+            low, high = np.maximum(low, near), np.minimum(high, far)
+            off = contact.points[corner] - q
+            corner = corner[np.hypot(off[:, 0], off[:, 1]) < self.radius]
+        met = low < high
+        return ContactSet(edge[met], low[met], high[met], corner)
+
+
+def interpretation(
+    readings: Readings, position: Point, force: float | None, uncertainty: Uncertainty
+) -> Interpretation:
+    """`K_v(q, f)` (theory 3, paper 5.3).
+
+    Parameters
+    ----------
+    position : q, as measured.
+    force : the angle of the measured force, radians; None if f = 0.
+    """
+    return Interpretation(position, uncertainty.position, readings.can_read(force))
+
+
+def contained(
+    space: ConfigurationSpace, readings: Readings, told: Interpretation, rest: Outside
+) -> bool:
+    """The termination condition `K_v(q, f) & Delta <= T`, as `K_v(q, f)` misses `Delta - T`.
+
+    True for every reading that a configuration of the kernel can give: the kernel is further than
+    twice rho from all of `rest` that is alike.
+
+    Parameters
+    ----------
+    rest : `outside(space, T, Delta)`.
+    """
+    segments = contact_segments(space.contact, rest.contact, readings)
+    segments = segments.part(told.features[segments.feature])
+    if np.isinf(told.radius):
+        return not len(segments) and not (told.free and not rest.area.is_empty)
+    if told.radius == 0.0:
+        return not _is_at(space, readings, told, rest, segments)
+    q = np.array([told.position])
+    if np.any(distances(np.repeat(q, len(segments), axis=0), segments) < told.radius):
+        return False
+    return not told.free or rest.area.distance(*told.position) >= told.radius
+
+
+def _is_at(
+    space: ConfigurationSpace,
+    readings: Readings,
+    told: Interpretation,
+    rest: Outside,
+    segments: Segments,
+) -> bool:
+    """Whether q itself is a configuration of `rest`: of the least feature that lies there.
+
+    What ends at q, within the tolerance, is left to the target, which is closed.
+    """
+    q, margin = np.array([told.position]), space.tolerance.length
+    whole = contact_segments(space.contact, ContactSet.whole(space.contact), readings)
+    here = whole.feature[distances(np.repeat(q, len(whole), axis=0), whole) <= margin]
+    if np.any(here >= readings.size):
+        corners = here[here >= readings.size]
+        return bool(np.any(np.isin(segments.feature, corners)))
+    if len(here):
+        near = segments.part(np.isin(segments.feature, here))
+        off = [np.hypot(*(end - q).T) for end in (near.starts, near.ends)]
+        at = distances(np.repeat(q, len(near), axis=0), near) <= margin
+        return bool(np.any(at & (off[0] > margin) & (off[1] > margin)))
+    if not told.free or not rest.area.contains(*told.position):
+        return False
+    edges = border_segments(*border(rest.area), readings)
+    return bool(np.all(distances(np.repeat(q, len(edges), axis=0), edges) > margin))

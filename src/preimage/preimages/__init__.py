@@ -1,0 +1,1 @@
+"""Reachability and recognition together."""

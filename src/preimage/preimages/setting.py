@@ -1,0 +1,82 @@
+"""What stays the same while one task is planned, and what depends on the command alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from preimage.configuration.obstacles import configuration_space
+from preimage.configuration.space import ConfigurationSpace
+from preimage.reachability.sources import Sources, sources
+from preimage.recognition.readings import Readings, readings
+from preimage.task.task import SlidingLaw, Task
+from preimage.task.uncertainty import Uncertainty
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """Configuration space and the bounds on all errors.
+
+    Parameters
+    ----------
+    friction : phi, radians.
+    sliding : the law by which a slide's speed bounds a sticking condition's period.
+    arc_tolerance : how far arcs of kernels may be off, on the safe side, relative to the position
+        error.
+    """
+
+    space: ConfigurationSpace
+    uncertainty: Uncertainty
+    friction: float
+    sliding: SlidingLaw
+    arc_tolerance: float
+    _commands: dict[float, Command] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def of(cls, task: Task, space: ConfigurationSpace | None = None) -> Setting:
+        """The setting of a task."""
+        return cls(
+            space=configuration_space(task) if space is None else space,
+            uncertainty=task.uncertainty,
+            friction=task.friction,
+            sliding=task.sliding,
+            arc_tolerance=task.options.arc_tolerance,
+        )
+
+    def command(self, direction: float) -> Command:
+        """The command along `direction`, radians; always the same object for the same number."""
+        if direction not in self._commands:
+            self._commands[direction] = Command(self, direction)
+        return self._commands[direction]
+
+
+@dataclass(frozen=True, eq=False)
+class Command:
+    """One commanded direction: what features do to it, and what is read at them meanwhile."""
+
+    setting: Setting
+    direction: float
+
+    @cached_property
+    def sources(self) -> Sources:
+        """What every feature may do to the motion."""
+        space = self.setting.space
+        return sources(
+            space.contact,
+            self.direction,
+            self.setting.uncertainty.control,
+            self.setting.friction,
+            space.tolerance,
+        )
+
+    @cached_property
+    def readings(self) -> Readings:
+        """What the force sensor may read at every feature."""
+        space = self.setting.space
+        return readings(
+            space.contact,
+            self.direction,
+            self.setting.uncertainty,
+            self.setting.friction,
+            space.tolerance,
+        )

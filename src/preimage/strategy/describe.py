@@ -1,0 +1,194 @@
+"""A strategy in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preimage.configuration.region import Region
+from preimage.configuration.space import ConfigurationSpace
+from preimage.recognition.termination import (
+    Condition,
+    ElapsedCondition,
+    ReadingCondition,
+    StickingCondition,
+)
+from preimage.strategy.strategy import Motion, Status, Strategy, StrategyRegion
+from preimage.strategy.words import (
+    arrow,
+    contact_lines,
+    count,
+    direction_words,
+    joined,
+    number,
+    region_words,
+    shortened,
+)
+from preimage.task.options import Continuous, StrategyKind
+from preimage.task.task import (
+    Everywhere,
+    Initial,
+    InitialDisc,
+    InitialEdges,
+    InitialPoint,
+    InitialPolygon,
+)
+
+MOST = 12
+"""Regions that are listed of a strategy that was not found."""
+
+
+def describe(strategy: Strategy) -> str:
+    """An account of a strategy: every motion with its direction, its aim and what ends it.
+
+    >>> from preimage.search.planner import plan
+    >>> from preimage.task import named_task
+    >>> print(describe(plan(named_task("flat-floor"))).splitlines()[0])
+    flat-floor: solved in 1 motion
+    """
+    return "\n".join([*_headline(strategy), *_body(strategy), *_totals(strategy)])
+
+
+def describe_condition(
+    condition: Condition, goals: tuple[int, ...], space: ConfigurationSpace
+) -> str:
+    """When a condition ends a motion.
+
+    >>> describe_condition(StickingCondition(2.5, 0.25), (0,), None)
+    'the measured position has moved by at most 0.25 within the last 2.5 of time'
+    """
+    match condition:
+        case StickingCondition(period=period, distance=distance):
+            return (
+                f"the measured position has moved by at most {number(distance)}"
+                f" within the last {number(period)} of time"
+            )
+        case ElapsedCondition(period=period):
+            return f"a time of {number(period)} has passed"
+        case ReadingCondition(domain=domain):
+            within = "" if domain is None else f", of all in {region_words(domain)},"
+            return f"every place that fits the readings{within} is in {_regions(goals)}"
+
+
+def contact_share(region: Region) -> str:
+    """How much of a region is contact."""
+    if region.area.is_empty:
+        return "nothing but contact" if not region.contact.is_empty else "nothing"
+    if region.contact.is_empty:
+        return "free space only, no contact"
+    edges, corners = region.contact.total_length, len(region.contact.vertices)
+    parts = [f"edges of length {number(edges)}"] if edges else []
+    parts += [count(corners, "vertex", "vertices")] if corners else []
+    return f"{joined(parts)}, beside free space of area {number(region.area.measure)}"
+
+
+def start_words(initial: Initial) -> str:
+    """Where the robot may be at the start."""
+    match initial:
+        case InitialPoint(point=(x, y)):
+            return f"the point ({number(x)}, {number(y)})"
+        case InitialDisc(center=(x, y), radius=radius):
+            return f"a disc of radius {number(radius)} around ({number(x)}, {number(y)})"
+        case InitialPolygon(vertices=vertices):
+            return f"a polygon of {len(vertices)} vertices"
+        case InitialEdges(edges=edges):
+            return count(len(edges), "edge")
+        case Everywhere():
+            return "anywhere"
+
+
+# --- parts ----------------------------------------------------------------------------------
+
+
+def _headline(strategy: Strategy) -> Iterator[str]:
+    task, options = strategy.task, strategy.task.options
+    if strategy.status is Status.SOLVED:
+        most = max(strategy.region(number).rank for number in strategy.start)
+        if strategy.kind is StrategyKind.LINEAR:
+            result = f"solved in {count(len(strategy.steps), 'motion')}"
+        else:
+            result = f"solved in {count(most, 'motion')} at most"
+    elif strategy.status is Status.UNSOLVABLE:
+        result = "not solvable with these directions and this method"
+    else:
+        result = f"stopped: {strategy.reason}" if strategy.reason else "stopped"
+    yield f"{task.name}: {result}"
+    directions = options.directions
+    many = "all" if isinstance(directions, Continuous) else str(len(directions))
+    yield (
+        f"  {options.method.value} method, {strategy.kind.value} strategy, {many} directions,"
+        f" at most {count(options.max_steps, 'motion')}"
+    )
+    yield f"  start: {start_words(task.initial)}"
+    yield f"  goal: {region_words(strategy.region(0).region)}"
+
+
+def _body(strategy: Strategy) -> Iterator[str]:
+    if strategy.status is not Status.SOLVED:
+        yield from _what_was_found(strategy)
+    elif strategy.kind is StrategyKind.LINEAR:
+        total = len(strategy.steps)
+        if not total:
+            yield "the start lies in the goal: there is nothing to do"
+        for index, step in enumerate(strategy.steps, 1):
+            region = strategy.region(step)
+            yield from _motion(strategy, region, f"motion {index} of {total}")
+    else:
+        yield f"begins in {_regions(strategy.start, 'or')}"
+        for region in sorted(strategy.regions, key=lambda one: (one.rank, one.id)):
+            if region.motion is not None:
+                name = f"in region {region.id}, with {count(region.rank, 'motion')} left at most"
+                yield from _motion(strategy, region, name)
+
+
+def _motion(strategy: Strategy, region: StrategyRegion, name: str) -> Iterator[str]:
+    motion = region.motion
+    assert motion is not None
+    yield ""
+    yield f"{name}: {arrow(motion.direction)} {direction_words(motion.direction)}"
+    yield f"  from        {_region_name(region.id)}: {region_words(region.region)}"
+    yield f"  aims at     {region_words(motion.target)}"
+    for line in contact_lines(motion.target, strategy.space):
+        yield f"              {line}"
+    yield f"  contact     {contact_share(motion.target)}"
+    yield from _conditions(motion, strategy.space)
+    yield f"  then it is  in {_regions(motion.goals, 'or')}"
+
+
+def _conditions(motion: Motion, space: ConfigurationSpace) -> Iterator[str]:
+    for index, condition in enumerate(motion.termination):
+        lead = "or as soon as" if index else "stops as soon as"
+        yield f"  {lead} {describe_condition(condition, motion.goals, space)}"
+
+
+def _what_was_found(strategy: Strategy) -> Iterator[str]:
+    preimages = [region for region in strategy.regions if region.motion is not None]
+    if not preimages:
+        yield "no motion is known to end in the goal"
+        return
+    yield f"{count(len(preimages), 'preimage')} found, and the start is in none of them"
+    for region in preimages[:MOST]:
+        assert region.motion is not None
+        yield (
+            f"  region {region.id}: {count(region.rank, 'motion')} from the goal, first"
+            f" {direction_words(region.motion.direction)}; {region_words(region.region)}"
+        )
+    if len(preimages) > MOST:
+        yield f"  and {len(preimages) - MOST} more"
+
+
+def _totals(strategy: Strategy) -> Iterator[str]:
+    statistics = strategy.statistics
+    yield ""
+    yield f"{count(statistics.regions, 'region')} made in {statistics.seconds:.3g} s"
+
+
+def _region_name(number: int) -> str:
+    return "the goal" if number == 0 else f"region {number}"
+
+
+def _regions(numbers: tuple[int, ...], last: str = "and") -> str:
+    """Regions by name: the goal, or their numbers."""
+    names = shortened([_region_name(number) for number in numbers], 6)
+    if last == "and" and len(numbers) > 1:
+        return f"one of {joined(names)}"
+    return joined(names, last)

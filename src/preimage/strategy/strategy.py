@@ -1,0 +1,93 @@
+"""A strategy as data: what is commanded from where, until when, and what holds then."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from preimage.configuration.region import Region
+from preimage.configuration.space import ConfigurationSpace
+from preimage.recognition.termination import Condition
+from preimage.task.options import StrategyKind
+from preimage.task.task import Task
+
+
+class Status(Enum):
+    """How planning ended."""
+
+    SOLVED = "solved"
+    UNSOLVABLE = "unsolvable"  # for these directions and this method
+    STOPPED = "stopped"  # a limit came first
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """A guarded motion: what is commanded in a preimage (paper 3.2).
+
+    Parameters
+    ----------
+    direction : the commanded direction, radians in [0, 2 pi).
+    goals : ids of the regions in one of which the motion ends.
+    target : what the motion aims at: kernel, sticking features, or both.
+    termination : the conditions; the first one that holds ends the motion.
+    """
+
+    direction: float
+    goals: tuple[int, ...]
+    target: Region
+    termination: tuple[Condition, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StrategyRegion:
+    """The goal, or a preimage with its motion (files.md).
+
+    Parameters
+    ----------
+    id : its number; 0 is the goal.
+    rank : how many motions may remain from here; 0 for the goal.
+    motion : None for the goal.
+    """
+
+    id: int
+    rank: int
+    region: Region
+    motion: Motion | None
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """What planning took: regions made, seconds, preimages computed, and sweep events."""
+
+    regions: int = 0
+    seconds: float = 0.0
+    preimages: int = 0
+    pruned: int = 0
+    layers: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Strategy:
+    """The answer of the planner: regions, where to start, and for a linear plan its steps.
+
+    Parameters
+    ----------
+    regions : by ascending id; the goal first. Of a solved linear plan, the regions that it uses;
+        else all that were found.
+    start : ids of the regions that may be chosen at the start.
+    steps : for a linear plan, the regions in the order of execution, the goal left out.
+    """
+
+    task: Task
+    space: ConfigurationSpace
+    status: Status
+    kind: StrategyKind
+    regions: tuple[StrategyRegion, ...]
+    start: tuple[int, ...]
+    steps: tuple[int, ...]
+    statistics: Statistics
+    reason: str = ""  # which limit stopped the planner
+
+    def region(self, number: int) -> StrategyRegion:
+        """The region with this id."""
+        return next(region for region in self.regions if region.id == number)

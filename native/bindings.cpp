@@ -39,7 +39,7 @@ nb::tuple backproject(Doubles points, Ints next, Ints place, Bytes edge_code, By
                       Ints target_vertices, Ints beside_edge, Doubles beside_low,
                       Doubles beside_high, Doubles nodes, Ints node_vertex, Ints node_edge,
                       Doubles node_distance, Ints segment_from, Ints segment_to, double vx,
-                      double vy, double spread, double tolerance) {
+                      double vy, double step, double spread, double tolerance) {
     preimage::Backprojection result;
     {
         nb::gil_scoped_release unlocked;
@@ -55,7 +55,7 @@ nb::tuple backproject(Doubles points, Ints next, Ints place, Bytes edge_code, By
             view(node_distance),
             view(segment_from),
             view(segment_to)};
-        result = preimage::backproject(contact, target, {vx, vy}, spread, tolerance);
+        result = preimage::backproject(contact, target, {vx, vy, step}, spread, tolerance);
     }
     return nb::make_tuple(result.consistent, array(std::move(result.ring_points)),
                           array(std::move(result.ring_start)), array(std::move(result.ring_shell)),

@@ -25,12 +25,17 @@ inline double leftness(Point origin, Vector direction, Point p) {
 }
 
 // Turns the plane so that a commanded direction (vx, vy) points down; lengths are kept, and
-// multiples of a quarter turn are exact.
+// multiples of a quarter turn are exact. Heights are rounded to multiples of `step`, a power of
+// two far below the tolerance, so that what is level stays level.
 struct Frame {
     double vx;
     double vy;
+    double step;
 
-    Point enter(double x, double y) const { return {vx * y - vy * x, -(vx * x + vy * y)}; }
+    Point enter(double x, double y) const {
+        return {vx * y - vy * x, level(-(vx * x + vy * y))};
+    }
+    double level(double h) const { return std::nearbyint(h / step) * step; }
     void leave(Point p, double& x, double& y) const {
         x = -vy * p.u - vx * p.h;
         y = vx * p.u - vy * p.h;

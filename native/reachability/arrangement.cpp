@@ -83,7 +83,7 @@ void Arrangement::cut_edges(const TargetView& target, double tolerance) {
                 place = cut.distance;
                 point = static_cast<std::int32_t>(points.size());
                 const double t = place / length;
-                points.push_back({a.u + t * (b.u - a.u), a.h + t * (b.h - a.h)});
+                points.push_back({a.u + t * (b.u - a.u), frame.level(a.h + t * (b.h - a.h))});
                 const Edge rest{point, last_point, base, edges[piece].code, false, false, false};
                 edges[piece].to = point;
                 piece = static_cast<std::int32_t>(edges.size());

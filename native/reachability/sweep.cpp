@@ -373,11 +373,9 @@ private:
             const Edge& edge = world_.edges[upper_[i]];
             if (world_.is_contact(edge)) return corner_of(edge, p).avoidable;
         }
-        // no contact above: the one wedge around the peak below
-        for (const Corner& corner : corners_) {
-            if (corner.avoidable) return true;
-        }
-        return false;
+        // no contact above: the wedge is that of the pieces on both sides
+        const Corner* corner = corner_below(0, p);
+        return corner != nullptr && corner->avoidable;
     }
 
     void enter_fresh(std::int32_t p) {

@@ -27,6 +27,7 @@ def backproject(
     segment_to: Ints,
     vx: float,
     vy: float,
+    step: float,
     spread: float,
     tolerance: float,
     /,

@@ -17,13 +17,20 @@ from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry import area as areas
 from preimage.geometry.angles import unit
 from preimage.geometry.area import Area
-from preimage.reachability.assembly import NOTHING, Attachment, attach
+from preimage.geometry.tolerance import ANGLE
+from preimage.reachability.assembly import Attachment, attach
 from preimage.reachability.sources import Sources
 
 Floats = NDArray[np.float64]
 
 OPEN = np.uint8(16)
 """The sweep's own bit beside those of `Behaviour`: an open side of the window."""
+
+FINER = 16.0
+"""Heights in the sweep are multiples of the grid over this: level up to rounding is level."""
+
+TURN = 8.0 * ANGLE
+"""By how much a sweep is turned, radians, that rounding has spoiled."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,27 +82,34 @@ def backproject(space: ConfigurationSpace, target: Region, command: Sources) -> 
     """
     if target.is_empty:
         return _nowhere(space, target, command)
-    result = _sweep(space, target, attach(target.area, space), command)
-    if result is None:
-        # the border of the target's area crosses contact space by more than rounding: what is
-        # well inside the area attaches to nothing
-        core = areas.shrunk(target.area, 4.0 * space.tolerance.length)
-        smaller = Region(core, target.contact)
-        result = _sweep(space, smaller, attach(core, space), command)
-    if result is None:
-        smaller = Region(Area.empty(), target.contact)
-        result = _sweep(space, smaller, NOTHING, command)
-    if result is None:
-        return _nowhere(space, target, command)
-    return result
+    attachment = attach(target.area, space)
+    for turn in (0.0, TURN, -TURN):
+        result = _sweep(space, target, attachment, command, turn)
+        if result is not None:
+            return result
+    # the border of the target's area crosses contact space by more than rounding: what is well
+    # inside the area attaches to nothing
+    core = areas.shrunk(target.area, 4.0 * space.tolerance.length)
+    smaller = Region(core, target.contact)
+    result = _sweep(space, smaller, attach(core, space), command, TURN)
+    return result if result is not None else _nowhere(space, target, command)
 
 
 def _sweep(
-    space: ConfigurationSpace, target: Region, attachment: Attachment, command: Sources
+    space: ConfigurationSpace,
+    target: Region,
+    attachment: Attachment,
+    command: Sources,
+    turn: float = 0.0,
 ) -> Backprojection | None:
-    contact = space.contact
-    vx, vy = unit(command.direction)
-    spread = math.tan(max(command.control, space.tolerance.angle))
+    """One run of the sweep; None where rounding spoils the order of what it meets.
+
+    Turned by a little, with a control cone that is wider by as much, the plane is free of the
+    coincidences that cause this, and the backprojection only smaller.
+    """
+    contact, tolerance = space.contact, space.tolerance
+    vx, vy = unit(command.direction + turn)
+    spread = math.tan(max(command.control, tolerance.angle) + abs(turn))
     consistent, points, start, shell, edge, low, high, vertex, rays, events = _native.backproject(
         contact.points.reshape(-1),
         contact.next,
@@ -117,8 +131,9 @@ def _sweep(
         attachment.segment_to,
         vx,
         vy,
+        tolerance.grid / FINER,
         spread,
-        space.tolerance.length,
+        tolerance.length,
     )
     if not consistent:
         return None

@@ -5,12 +5,52 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from preimage import display
+
 if TYPE_CHECKING:
+    from preimage.configuration.obstacles import configuration_space as configuration_space
+    from preimage.errors import PreimageError as PreimageError
+    from preimage.preimages.methods import preimage as preimage
+    from preimage.preimages.setting import Setting as Setting
+    from preimage.reachability.backprojection import backproject as backproject
+    from preimage.recognition.kernel import kernel as kernel
+    from preimage.rendering import draw as draw
+    from preimage.search.planner import plan as plan
+    from preimage.strategy.describe import describe as describe
+    from preimage.strategy.plan_file import read_plan as read_plan
+    from preimage.strategy.plan_file import write_plan as write_plan
+    from preimage.strategy.strategy import Status as Status
+    from preimage.strategy.strategy import Strategy as Strategy
+    from preimage.task.examples import named_task as named_task
+    from preimage.task.examples import named_tasks as named_tasks
+    from preimage.task.files import load_task as load_task
+    from preimage.task.options import Method as Method
+    from preimage.task.task import Task as Task
+
     __version__: str
 
 # The public names and the module that each lives in: loaded when first asked for, so that
 # `import preimage` costs nothing. Whoever reads types sees them above.
-_HOMES: dict[str, str] = {}
+_HOMES: dict[str, str] = {
+    "Method": "preimage.task.options",
+    "PreimageError": "preimage.errors",
+    "Setting": "preimage.preimages.setting",
+    "Status": "preimage.strategy.strategy",
+    "Strategy": "preimage.strategy.strategy",
+    "Task": "preimage.task.task",
+    "backproject": "preimage.reachability.backprojection",
+    "configuration_space": "preimage.configuration.obstacles",
+    "describe": "preimage.strategy.describe",
+    "draw": "preimage.rendering",
+    "kernel": "preimage.recognition.kernel",
+    "load_task": "preimage.task.files",
+    "named_task": "preimage.task.examples",
+    "named_tasks": "preimage.task.examples",
+    "plan": "preimage.search.planner",
+    "preimage": "preimage.preimages.methods",
+    "read_plan": "preimage.strategy.plan_file",
+    "write_plan": "preimage.strategy.plan_file",
+}
 
 __all__ = ["__version__", *_HOMES]
 
@@ -31,3 +71,12 @@ def __getattr__(name: str) -> object:
 def __dir__() -> list[str]:
     """The public names."""
     return sorted({*globals(), *__all__})
+
+
+def _picture(subject: object) -> str | None:
+    """The picture of anything that has one, drawn by the room that draws."""
+    svg: str = import_module("preimage.rendering").svg(subject)
+    return svg
+
+
+display.paint_with(_picture)

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from preimage.configuration.contact import ContactSpace
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
+from preimage.display import Shown
 from preimage.geometry.area import Area
 from preimage.geometry.tolerance import Tolerance
 
 
 @dataclass(frozen=True, eq=False)
-class ConfigurationSpace:
+class ConfigurationSpace(Shown):
     """Free space in the window, its border, and the tolerance that goes with its scale.
 
     Parameters

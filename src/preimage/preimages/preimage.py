@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from preimage.configuration.region import Region
+from preimage.display import Shown
 from preimage.reachability.backprojection import Backprojection
 from preimage.recognition.termination import Condition
 from preimage.task.options import Method
@@ -32,7 +33,7 @@ class Target:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Preimage:
+class Preimage(Shown):
     """A region from which a motion along `direction` ends in `goal`, and is known to (paper 4).
 
     Parameters

@@ -14,6 +14,7 @@ from preimage.configuration.contact import Ints
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
+from preimage.display import Shown
 from preimage.geometry import area as areas
 from preimage.geometry.angles import unit
 from preimage.geometry.area import Area
@@ -34,7 +35,7 @@ TURN = 8.0 * ANGLE
 
 
 @dataclass(frozen=True, eq=False)
-class Backprojection:
+class Backprojection(Shown):
     """The starts from which every motion along one command meets a target (theory 4).
 
     Parameters

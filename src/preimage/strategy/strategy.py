@@ -7,6 +7,7 @@ from enum import Enum
 
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
+from preimage.display import Shown
 from preimage.recognition.termination import Condition
 from preimage.task.options import StrategyKind
 from preimage.task.task import Task
@@ -67,7 +68,7 @@ class Statistics:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Strategy:
+class Strategy(Shown):
     """The answer of the planner: regions, where to start, and for a linear plan its steps.
 
     Parameters

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 
+from preimage.display import Shown
 from preimage.errors import TaskError, shown
 from preimage.task import checks, limits
 from preimage.task.goal import Goal
@@ -32,7 +33,7 @@ class SlidingLaw(Enum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Task:
+class Task(Shown):
     """A motion planning problem with uncertainty (theory 1 to 3). Angles are radians.
 
     Parameters

@@ -52,7 +52,7 @@ demo: build ## plan a named task
 	$(BIN)/preimage plan --example peg-in-hole
 
 bench: build ## run the benchmarks
-	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks --page docs/benchmarks.md
 
 # --- checking -------------------------------------------------------------------------------
 

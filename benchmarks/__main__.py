@@ -1,25 +1,46 @@
-"""Every benchmark, by name."""
+"""All benchmarks, printed, and kept in the docs: run alone on the machine."""
 
 from __future__ import annotations
 
-import subprocess
-import sys
-from collections.abc import Callable
-from functools import partial
+import argparse
+from pathlib import Path
 
+from benchmarks.backprojection import growth
+from benchmarks.planning import processes, small_scenes, whole_plans
 from benchmarks.timing import table
 
-
-def python(*arguments: str) -> Callable[[], object]:
-    """A run of the interpreter, from its start to its end."""
-    return partial(subprocess.run, [sys.executable, *arguments], check=True, capture_output=True)
-
-
 BENCHMARKS = {
-    "start python": python("-c", "pass"),
-    "import preimage": python("-c", "import preimage"),
-    "preimage --help": python("-c", "from preimage.cli.main import main; main(['--help'])"),
+    "Growth of the sweep": growth,
+    "Small scenes": small_scenes,
+    "Whole plans": whole_plans,
+    "Processes": processes,
 }
 
+PAGE = """# Benchmarks
+
+Made by `make bench`: the best of several runs in one process, on the machine at hand; compare the
+ratios, not the times. The target of a hall is its whole floor, among boxes of any angle, at most
+one a lattice cell. The sweep's own time leaves out what is computed once a scene and once a
+direction, and the making of polygons for GEOS; “and region” is with them.
+
+"""
+
+
+def main() -> None:
+    """Run the benchmarks that are asked for; with all of them, write the page."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", choices=sorted(BENCHMARKS))
+    parser.add_argument("--page", type=Path, help="a file to write the tables to")
+    arguments = parser.parse_args()
+    page = PAGE
+    for title, benchmark in BENCHMARKS.items():
+        if arguments.only in (None, title):
+            section = f"## {title}\n\n{table(benchmark())}\n\n"
+            print(section, flush=True)
+            page += section
+    if arguments.page is not None:
+        arguments.page.write_text(page.rstrip() + "\n", encoding="utf-8")
+
+
 if __name__ == "__main__":
-    table(BENCHMARKS)
+    main()

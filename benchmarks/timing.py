@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable
 from time import perf_counter
 
-Benchmark = Callable[[], object]
+Row = tuple[str, float, str]
+"""What was measured, its time in seconds or NaN, and a remark."""
 
 
-def best(benchmark: Benchmark, seconds: float = 1.0, least: int = 3) -> float:
+def best(benchmark: Callable[[], object], seconds: float = 1.0, least: int = 3) -> float:
     """The shortest run, in seconds, of as many as fit in `seconds`, and at `least` that many."""
     runs: list[float] = []
     while len(runs) < least or sum(runs) < seconds:
@@ -18,8 +20,10 @@ def best(benchmark: Benchmark, seconds: float = 1.0, least: int = 3) -> float:
     return min(runs)
 
 
-def table(benchmarks: Mapping[str, Benchmark]) -> None:
-    """Run the benchmarks and print a line each."""
-    width = max(map(len, benchmarks))
-    for name, benchmark in benchmarks.items():
-        print(f"{name:{width}}  {best(benchmark) * 1e3:10.2f} ms")
+def table(rows: Iterable[Row]) -> str:
+    """The rows as a table in Markdown."""
+    lines = ["| what | ms | |", "|---|---:|---|"]
+    for name, seconds, remark in rows:
+        spent = "" if math.isnan(seconds) else f"{seconds * 1e3:,.3g}"
+        lines.append(f"| {name} | {spent} | {remark} |")
+    return "\n".join(lines)

@@ -48,10 +48,41 @@ def identified(points: Floats) -> tuple[Floats, Ints]:
     >>> different.tolist(), index.tolist()
     ([[0.0, 2.0], [1.0, 0.0]], [1, 0, 1])
     """
-    # complex numbers sort by their real part, then by the other, and much faster than rows
-    pairs = np.ascontiguousarray(points + 0.0).view(np.complex128).reshape(-1)
-    different, index = np.unique(pairs, return_inverse=True)
+    different, index = np.unique(_numbers(points), return_inverse=True)
     return different.view(np.float64).reshape(-1, 2), index.reshape(-1).astype(np.int32)
+
+
+def present(points: Floats, among: Floats) -> NDArray[np.bool_]:
+    """(n,) which of (n, 2) points are among others, exactly."""
+    return np.isin(_numbers(points), _numbers(among))
+
+
+def _numbers(points: Floats) -> NDArray[np.complex128]:
+    """Points as complex numbers, which are sorted much faster than rows."""
+    return np.ascontiguousarray(points + 0.0).view(np.complex128).reshape(-1)
+
+
+def without_vertices(area: Area, gone: NDArray[np.bool_]) -> Area:
+    """The area whose rings leave out vertices, at least three of each ring staying.
+
+    Parameters
+    ----------
+    gone : (n,) for the vertices in the order of `border`.
+
+    >>> bent = Area.polygon(np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]))
+    >>> points, _ = border(bent)
+    >>> without_vertices(bent, (points == (1.0, 0.0)).all(axis=1)).corners
+    4
+    """
+    geometry = shapely.orient_polygons(area.geometry, exterior_cw=False)
+    _, closed, (rings, parts) = shapely.to_ragged_array(shapely.get_parts(geometry))
+    first = np.asarray(rings[:-1]) - np.arange(len(rings) - 1)
+    points = np.delete(closed, np.asarray(rings[1:]) - 1, axis=0)
+    ring = np.repeat(np.arange(len(first)), np.diff(np.append(first, len(points))))
+    left = shapely.linearrings(points[~gone], indices=ring[~gone])
+    owner = np.repeat(np.arange(len(parts) - 1), np.diff(parts))
+    polygons = shapely.polygons(left, indices=owner)
+    return Area(polygons[0] if len(polygons) == 1 else shapely.multipolygons(polygons))
 
 
 def split(points: Floats, following: Ints, edge: Ints, places: Floats) -> tuple[Floats, Ints]:

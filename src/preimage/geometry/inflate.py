@@ -18,8 +18,9 @@ import shapely
 from numpy.typing import NDArray
 
 from preimage.geometry.angles import TAU
-from preimage.geometry.area import Area
+from preimage.geometry.area import Area, grid_of
 from preimage.geometry.border import border
+from preimage.geometry.tolerance import ANGLE
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -114,7 +115,12 @@ def grow(
 
 
 def shrunk_by(area: Area, *pieces: Pieces) -> Area:
-    """The area without the interiors of the pieces; those that miss it cost little."""
+    """The area without the interiors of the pieces; those that miss it cost little.
+
+    Overlays in floating arithmetic may fail, or lose polygons, where borders nearly coincide. So
+    the middle of every piece is looked for in the answer; if one is there, all is done again on a
+    grid, which is slower.
+    """
     together = np.concatenate(pieces) if pieces else _NONE
     if not len(together) or area.is_empty:
         return area
@@ -122,7 +128,24 @@ def shrunk_by(area: Area, *pieces: Pieces) -> Area:
     together = together[shapely.intersects(area.geometry, together)]
     if not len(together):
         return area
-    return Area.of(shapely.difference(area.geometry, shapely.union_all(together)))
+    try:
+        rest = Area.of(shapely.difference(area.geometry, shapely.union_all(together)))
+    except shapely.GEOSException:
+        rest = None
+    if rest is None or _survives(together, rest):
+        grid = grid_of(area)
+        gone = shapely.union_all(together, grid_size=grid)
+        rest = Area.of(shapely.difference(area.geometry, gone, grid_size=grid))
+    return rest
+
+
+def _survives(pieces: Pieces, rest: Area) -> bool:
+    """Whether the middle of some piece is still inside what the pieces were taken from."""
+    if rest.is_empty:
+        return False
+    shapely.prepare(rest.geometry)
+    middle = shapely.centroid(pieces)
+    return bool(np.any(shapely.contains_properly(rest.geometry, middle)))
 
 
 def outward_pieces(
@@ -159,16 +182,30 @@ def outward_pieces(
     corners = np.empty((len(edges), 4, 2))
     corners[:, 0], corners[:, 1] = start - depth * side, end - depth * side
     corners[:, 2], corners[:, 3] = end + radius * side, start + radius * side
-    rectangles = np.asarray(shapely.polygons(corners), dtype=np.object_)
 
     first = outward[before[edges]]
-    convex = first[:, 0] * side[:, 1] > first[:, 1] * side[:, 0]
-    # a turn so slight that the rectangles meet all the same
-    convex &= np.any(start + radius * first != corners[:, 3], axis=1)
-    if not np.any(convex):
-        return rectangles
-    sectors = _sectors(start[convex], first[convex], side[convex], radius, normals)
-    return np.concatenate((rectangles, sectors))
+    convex = np.flatnonzero(first[:, 0] * side[:, 1] > first[:, 1] * side[:, 0])
+    base, turn, turns = _turns(first[convex], side[convex], normals)
+    slack = _slack(points, radius)
+    inner = (turns > slack) & (turns < turn[:, None] - slack)
+    curved = np.any(inner, axis=1)
+    # where no tangent lies between the edges' own, these two meet in the rectangles' corners
+    sharp = convex[~curved]
+    meeting = start[sharp] + radius * _corners(first[sharp], side[sharp])
+    corners[sharp, 3] = meeting
+    place = np.full(len(points), -1)
+    place[edges] = np.arange(len(edges))
+    earlier = place[before[edges[sharp]]]
+    corners[earlier[earlier >= 0], 2] = meeting[earlier >= 0]
+
+    pieces = np.asarray(shapely.polygons(corners), dtype=np.object_)
+    if not np.any(curved):
+        return pieces
+    bent = convex[curved]
+    inner, directions = inner[curved], base[curved, None] + turns[curved]
+    between = [np.sort(row[mask]).tolist() for row, mask in zip(directions, inner, strict=True)]
+    sectors = _sectors(start[bent], first[bent], side[bent], between, radius)
+    return np.concatenate((pieces, sectors))
 
 
 def stadium_pieces(starts: Floats, ends: Floats, radius: float, normals: Floats) -> Pieces:
@@ -182,13 +219,15 @@ def stadium_pieces(starts: Floats, ends: Floats, radius: float, normals: Floats)
     along /= np.where(long, length, 1.0)[:, None]
     right = np.stack((along[:, 1], -along[:, 0]), axis=1)
     # the normals from the right side of the segment around its end to the left side, and back
-    base = np.arctan2(right[:, 1], right[:, 0])
-    turns = np.mod(normals[None, :] - base[:, None], TAU)
+    base, _, turns = _turns(right, right, normals)
+    slack = _slack(np.concatenate((starts, ends)), radius)
+    for exact in (0.0, np.pi, TAU):
+        turns[np.abs(turns - exact) <= slack] = exact
     own = np.broadcast_to((0.0, np.pi), (len(starts), 2))
     turns = np.sort(np.concatenate((own, turns), axis=1), axis=1)
     angles = base[:, None] + turns
     vectors = np.stack((np.cos(angles), np.sin(angles)), axis=2)
-    vectors = np.where((turns == 0.0)[..., None], right[:, None, :], vectors)
+    vectors = np.where(((turns == 0.0) | (turns == TAU))[..., None], right[:, None, :], vectors)
     vectors = np.where((turns == np.pi)[..., None], -right[:, None, :], vectors)
     following = np.roll(vectors, -1, axis=1)
     centers = np.where((turns < np.pi)[..., None], ends[:, None, :], starts[:, None, :])
@@ -196,20 +235,36 @@ def stadium_pieces(starts: Floats, ends: Floats, radius: float, normals: Floats)
     return np.asarray(polygons, dtype=np.object_)
 
 
-def _sectors(
-    centers: Floats, first: Floats, second: Floats, radius: float, normals: Floats
-) -> Pieces:
-    """Sectors of discs, from outside, counter-clockwise between unit vectors less than pi apart."""
+def _turns(first: Floats, second: Floats, normals: Floats) -> tuple[Floats, Floats, Floats]:
+    """Angles of unit vectors, and from there to others and to all normals, counter-clockwise."""
     base = np.arctan2(first[:, 1], first[:, 0])
     turn = np.mod(np.arctan2(second[:, 1], second[:, 0]) - base, TAU)
-    turns = np.mod(normals[None, :] - base[:, None], TAU)
+    return base, turn, np.mod(normals[None, :] - base[:, None], TAU)
+
+
+def _slack(points: Floats, radius: float) -> float:
+    """Tangents that differ by less have corners that rounding cannot tell apart; radians."""
+    return max(ANGLE, float(64.0 * np.finfo(float).eps * np.max(np.abs(points)) / radius))
+
+
+def _sectors(
+    centers: Floats,
+    first: Floats,
+    second: Floats,
+    between: list[list[float]],
+    radius: float,
+) -> Pieces:
+    """Sectors of discs, from outside, counter-clockwise from one unit vector to another.
+
+    Parameters
+    ----------
+    between : of each, the angles of the normals of the tangents between both, ascending.
+    """
     rings: list[tuple[float, float]] = []
     which: list[int] = []
-    for place, ((x, y), one, other) in enumerate(
-        zip(centers.tolist(), first.tolist(), second.tolist(), strict=True)
-    ):
-        inner = np.sort(turns[place, turns[place] < turn[place]]) + base[place]
-        sides = [one, *((cos(angle), sin(angle)) for angle in inner.tolist()), other]
+    parts = zip(centers.tolist(), first.tolist(), second.tolist(), between, strict=True)
+    for place, ((x, y), one, other, angles) in enumerate(parts):
+        sides = [one, *((cos(angle), sin(angle)) for angle in angles), other]
         ring = [(x, y), (x + radius * one[0], y + radius * one[1])]
         for (ux, uy), (vx, vy) in pairwise(sides):
             scale = radius / (1.0 + ux * vx + uy * vy)

@@ -39,14 +39,22 @@ def united(areas: Sequence[Area], grid: float) -> Area:
 
 def united_shapes(shapes: Shapes, grid: float) -> shapely.Geometry:
     """The same for polygons of shapely's."""
-    polygons = shapely.get_parts(shapes)
-    polygons = polygons[~shapely.is_empty(polygons)]
-    alone = _alone(polygons, ALONE * grid)
-    crowd = Area.of(shapely.union_all(polygons[~alone], grid_size=grid))
-    if not alone.any():
-        return crowd.geometry
-    single = shapely.set_precision(polygons[alone], grid)
-    return shapely.multipolygons(np.concatenate((_parts(single), _parts(crowd.geometry))))
+    polygons = _parts(shapes)
+    if not len(polygons):
+        return shapely.Polygon()
+    group = _groups(polygons, ALONE * grid)
+    order = np.argsort(group, kind="stable")
+    first = np.flatnonzero(np.diff(group[order], prepend=-1))
+    crowds = np.split(polygons[order], first[1:])
+    single = np.array([len(crowd) == 1 for crowd in crowds])
+    alone = shapely.set_precision(polygons[order][first[single]], grid)
+    united_crowds = [
+        Area.of(shapely.union_all(crowd, grid_size=grid)).geometry
+        for crowd in crowds
+        if len(crowd) > 1
+    ]
+    whole = _parts(np.array([*alone, *united_crowds], dtype=object))
+    return whole[0] if len(whole) == 1 else shapely.multipolygons(whole)
 
 
 def box_without(box: Box, area: Area, grid: float) -> Area:
@@ -92,7 +100,7 @@ def _punched(polygons: Shapes, rings: Shapes) -> shapely.Geometry:
 def _parts(geometry: shapely.Geometry | Shapes) -> Shapes:
     """The polygons of a geometry, without empty ones."""
     polygons: Shapes = shapely.get_parts(geometry)
-    return polygons[~shapely.is_empty(polygons)]
+    return polygons[~np.asarray(shapely.is_empty(polygons), dtype=np.bool_)]
 
 
 def _alone(polygons: Shapes, apart: float) -> Bools:
@@ -102,7 +110,23 @@ def _alone(polygons: Shapes, apart: float) -> Bools:
     return alone
 
 
+def _groups(polygons: Shapes, apart: float) -> NDArray[np.intp]:
+    """(n,) the first of the polygons that hang together with each, over gaps up to `apart`."""
+    one, other = shapely.STRtree(polygons).query(polygons, predicate="dwithin", distance=apart)
+    group = np.arange(len(polygons))
+    while True:
+        least = group.copy()
+        np.minimum.at(least, one, group[other])
+        np.minimum.at(least, group[one], group[other])
+        least = least[least]
+        if np.array_equal(least, group):
+            return group
+        group = least
+
+
 def _strictly_inside(polygons: Shapes, box: Box) -> Bools:
     bounds = shapely.bounds(polygons)
-    inside: Bools = np.all(bounds[:, :2] > box[:2], axis=1) & np.all(bounds[:, 2:] < box[2:], axis=1)
+    inside: Bools = np.all(bounds[:, :2] > box[:2], axis=1) & np.all(
+        bounds[:, 2:] < box[2:], axis=1
+    )
     return inside

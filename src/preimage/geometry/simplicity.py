@@ -146,7 +146,7 @@ def chain_fault(points: Floats) -> str | None:
     if not shapely.is_simple(shapely.LineString(line)):
         return _crossing(line, closed=False)
     if _rays_meet(points[0], before, points[-1], after):
-        return "the rays before the first vertex and after the last one cross"
+        return "the ray before the first vertex and the ray after the last vertex cross"
     return None
 
 
@@ -303,7 +303,7 @@ def _verb(a: object, b: object) -> str:
 
 
 def _holes_at(reason: str, tree: shapely.STRtree) -> list[int]:
-    """The holes at the place that GEOS names in `Self-intersection[x y]`, the last of them first."""
+    """The holes at the place that GEOS names in `Self-intersection[x y]`, the last one first."""
     place = re.search(r"\[(\S+) (\S+)\]", reason)
     if place is None:
         return []

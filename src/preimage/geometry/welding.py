@@ -68,9 +68,7 @@ def _on_sides(points: Floats, window: Box, near: float) -> Floats:
     return moved
 
 
-def _near_misses(
-    place: Floats, tail: Ints, head: Ints, near: float
-) -> tuple[Ints, Ints, Floats]:
+def _near_misses(place: Floats, tail: Ints, head: Ints, near: float) -> tuple[Ints, Ints, Floats]:
     """Vertices near an edge that does not end there, and the ends of edges that are too short."""
     used = np.unique(np.concatenate((tail, head)))
     index = EdgeIndex(place[tail], place[head])

@@ -52,12 +52,11 @@ def scattered(draw: st.DrawFn) -> BaseGeometry:
     """A polygon off the lattice, star-shaped."""
     x, y = draw(st.floats(0.0, SIZE)), draw(st.floats(0.0, SIZE))
     count = draw(st.integers(3, 8))
-    reach = draw(st.lists(st.floats(0.2, 3.0), min_size=count, max_size=count))
+    reach = np.array(draw(st.lists(st.floats(0.2, 3.0), min_size=count, max_size=count)))
     turn = draw(st.floats(0.0, math.tau))
     angle = turn + math.tau * np.arange(count) / count
-    return shapely.Polygon(
-        np.column_stack((x + reach * np.cos(angle), y + reach * np.sin(angle)))
-    )
+    around = np.column_stack((np.cos(angle), np.sin(angle)))
+    return shapely.Polygon(np.array([x, y]) + reach[:, None] * around)
 
 
 shapes = st.one_of(boxes(), boxes(), rooms(), hulls(), scattered())

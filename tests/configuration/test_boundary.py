@@ -29,8 +29,7 @@ def some_space(
     """The space of a scene, or nothing where it fills the window."""
     try:
         return spaces.space_in(scene, sides)
-    except TaskError as refusal:
-        assert refusal.key == "obstacles"
+    except TaskError:
         return None
 
 

@@ -9,11 +9,12 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from preimage.geometry.area import Area
 from preimage.geometry.minkowski import convex_parts, minkowski_sum
 
-Points = np.ndarray
+Points = NDArray[np.float64]
 GRID = 2.0**-36
 
 
@@ -21,25 +22,26 @@ def convex_sum(a: Points, b: Points) -> Points:
     """The sum of two convex polygons by merging their edges by angle."""
 
     def from_lowest(points: Points) -> Points:
-        return np.roll(points, -np.lexsort((points[:, 0], points[:, 1]))[0], axis=0)
+        lowest = int(np.lexsort((points[:, 0], points[:, 1]))[0])
+        return np.roll(points, -lowest, axis=0)
 
     a, b = from_lowest(a), from_lowest(b)
     edges = np.concatenate([np.roll(points, -1, axis=0) - points for points in (a, b)])
     turn = np.mod(np.arctan2(edges[:, 1], edges[:, 0]) + 1e-12, math.tau)
     steps = np.cumsum(edges[np.argsort(turn, kind="stable")], axis=0)
-    return a[0] + b[0] + np.concatenate((np.zeros((1, 2)), steps[:-1]))
+    corners: Points = a[0] + b[0] + np.concatenate((np.zeros((1, 2)), steps[:-1]))
+    return corners
 
 
 @st.composite
 def convex(draw: st.DrawFn) -> Points:
     coordinate = st.integers(-5, 5)
-    points = draw(
-        st.lists(st.tuples(coordinate, coordinate), min_size=3, max_size=9, unique=True)
-    )
+    points = draw(st.lists(st.tuples(coordinate, coordinate), min_size=3, max_size=9, unique=True))
     hull = shapely.MultiPoint(points).convex_hull
     if hull.area == 0.0:
         hull = shapely.box(0, 0, 1, draw(st.integers(1, 3)))
-    return shapely.get_coordinates(shapely.orient_polygons(hull))[:-1]
+    corners: Points = shapely.get_coordinates(shapely.orient_polygons(hull))[:-1]
+    return corners
 
 
 @st.composite

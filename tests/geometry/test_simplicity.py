@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from preimage.geometry.simplicity import (
-    CROWDED,
     Fault,
     chain_fault,
     counterclockwise,
-    crowded_ring,
+    crowd_fault,
     hole_fault,
     ring_fault,
     thin_fault,
@@ -163,10 +162,10 @@ def test_no_rings_have_no_fault() -> None:
             [(1, 5000), (0, 0), (5000, 0), (4999, 5000)],
             "the ray before the first vertex and the ray after the last vertex cross",
         ),
-        ([(0, 0), (2, 0), (2, 2), (2, 1)], "edge 1 and the ray after the last vertex overlap"),
+        ([(0, 0), (2, 0), (2, 2), (2, 1)], "edge 0 and the ray after the last vertex touch"),
         (
             [(0, 0), (1, 0), (1, 1), (-3, 1), (-3, 0), (-2, 0)],
-            "the ray before the first vertex and the ray after the last vertex overlap",
+            "the ray before the first vertex and edge 3 touch",
         ),
     ],
 )
@@ -235,7 +234,18 @@ def test_crowds_are_refused_and_long_simple_rings_are_not() -> None:
     count = 100_000
     angles = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
     circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    assert crowd_fault(*one(circle), np.array([0, 1])) is None
     assert ring_fault(*one(circle)) is None
     spikes = circle * np.where(np.arange(count) % 2, 1.0, 0.01)[:, None]
-    assert crowded_ring(*one(spikes)) == 0
-    assert ring_fault(*one(spikes)) == Fault(0, CROWDED)
+    fault = Fault(0, "too many edges lie side by side to be checked")
+    assert crowd_fault(*one(spikes), np.array([0, 1])) == fault
+
+
+def test_crowds_add_up() -> None:
+    # Each group has some 20,000 edges whose boxes all overlap, in two rings.
+    slanted = np.array([[index % 2, index % 2 + 1e-4 * index] for index in range(10_000)])
+    points = np.tile(slanted, (20, 1))
+    offsets = np.arange(0, len(points) + 1, len(slanted))
+    fault = crowd_fault(points, offsets, np.arange(0, 21, 2))
+    assert fault is not None
+    assert 2 <= fault.ring <= 9

@@ -144,8 +144,8 @@ def test_sums(
     assume(friction < 1.55)
     for normal in (first, second):  # samples cannot tell a jump at the end from none
         assume(abs(abs(wrap(normal)) - control - math.pi / 2) > 1e-6)
-    pair = [np.array([wrap(n + DOWN + math.pi)]) for n in (first, second)]
-    got = summed_reactions(*pair, DOWN, control, friction, limits, ANGLE)
+    one, other = (np.array([wrap(n + DOWN + math.pi)]) for n in (first, second))
+    got = summed_reactions(one, other, DOWN, control, friction, limits, ANGLE)
     total = sum(force(n, offsets(control), friction) for n in (first, second))
     assert isinstance(total, np.ndarray)
     assert_matches(got, total, limits)
@@ -154,8 +154,8 @@ def test_sums(
 @given(normals, st.floats(0.02, 3.1), controls, frictions)
 @example(math.pi, 3.0, 1.2, 1.4)
 def test_holding(first: float, turn: float, control: float, friction: float) -> None:
-    pair = [np.array([wrap(n + DOWN + math.pi)]) for n in (first, first + turn)]
-    got = holding_reactions(*pair, DOWN, control, friction, (0.0, 0.0))
+    one, other = (np.array([wrap(n + DOWN + math.pi)]) for n in (first, first + turn))
+    got = holding_reactions(one, other, DOWN, control, friction, (0.0, 0.0))
     offset = offsets(control)
     middle = first + turn / 2
     off = np.abs(np.array([wrap(float(t) - middle) for t in offset]))

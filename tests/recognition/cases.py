@@ -100,7 +100,7 @@ def sampled_forces(case: Case, feature: int) -> np.ndarray:
         edges = [int(contact.previous[feature - n]), feature - n]
         touched = [edge for edge in edges if not contact.open[edge]]
         pair = [_force(float(contact.normal[edge]), push, case.friction) for edge in touched]
-        forces += [*pair, sum(pair)]
+        forces += [*pair, np.sum(pair, axis=0)]
         if len(pair) == 2 and contact.concave[feature - n]:
             first, second = (float(contact.normal[edge]) for edge in edges)
             half = ((second - first) % math.tau) / 2

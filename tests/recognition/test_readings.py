@@ -196,7 +196,7 @@ def _force(normal: float, push: float, friction: float) -> np.ndarray:
 def _holds(space: ContactSpace, vertex: int, push: float, friction: float) -> bool:
     first, second = space.normal[space.previous[vertex]], space.normal[vertex]
     turn = (second - first) % math.tau
-    return abs(wrap(push - first - turn / 2)) <= turn / 2 + friction
+    return bool(abs(wrap(push - first - turn / 2)) <= turn / 2 + friction)
 
 
 def _assert_readable(

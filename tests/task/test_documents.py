@@ -45,7 +45,7 @@ def refusal(text: str, kind: Format) -> str:
         (Y, "a: 1\n'a': 2", "task: key 'a' is repeated at line 2"),
         (Y, "? [1, 2]\n: 3", "task: has a key that is no word at line 1"),
         (Y, "a: 1\n---\nb: 2", "task: has a second document at line 2"),
-        (Y, "a: [1", "task: is not YAML at line 1, column"),
+        (Y, "a: [1", "task: is not YAML at line 2, column 1: "),
         (Y, "a: \x00", "task: is not YAML: "),
         (Y, "\t- a", "task: is not YAML at line 1, column 1: "),
         (Y, "[" * 21, "task: must be nested 20 deep or less"),

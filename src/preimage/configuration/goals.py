@@ -13,6 +13,7 @@ from preimage.configuration.space import ConfigurationSpace
 from preimage.errors import TaskError
 from preimage.geometry import area as areas
 from preimage.geometry.area import Area
+from preimage.geometry.overlay import common, united
 from preimage.task.task import Task
 
 Point = tuple[float, float]
@@ -46,13 +47,13 @@ def goal_region(task: Task, space: ConfigurationSpace) -> Region:
         corner = _vertices(space.contact, point, near, f"goal.points[{place}]")
         found = ContactSet.of([], [], [], corner, near)
         contact = contact_set.union(contact, found, near)
-    return Region(areas.union(*parts) if parts else Area.empty(), contact)
+    return Region(united(parts, space.tolerance.grid), contact)
 
 
 def clipped(area: Area, space: ConfigurationSpace) -> tuple[Area, ContactSet]:
     """The part of an area in free space, and all of contact space in it and on its border."""
     near = space.tolerance.length
-    inside = areas.regularised(areas.intersection(area, space.free), near)
+    inside = areas.regularised(common(area, space.free, space.tolerance.grid), near)
     return inside, inside_area(space.contact, area, near)
 
 

@@ -50,7 +50,8 @@ def along_segment(
     low = np.maximum(np.minimum(begin, stop), 0.0)
     high = np.minimum(np.maximum(begin, stop), length)
     beside = high - low > near
-    edge, begin, stop, low, high = (a[beside] for a in (edge, begin, stop, low, high))
+    edge = edge[beside]
+    begin, stop, low, high = (place[beside] for place in (begin, stop, low, high))
     first, last = ((place - begin) / (stop - begin) * contact.length[edge] for place in (low, high))
     apart = [_distance_from_line(contact.at(edge, at), p, unit) for at in (first, last)]
     on = np.maximum(*apart) <= near

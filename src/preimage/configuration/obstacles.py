@@ -13,10 +13,11 @@ from preimage.configuration.space import ConfigurationSpace
 from preimage.errors import TaskError
 from preimage.geometry import area as areas
 from preimage.geometry.area import Area
+from preimage.geometry.border import border, present, without_vertices
 from preimage.geometry.minkowski import minkowski_sum
 from preimage.geometry.overlay import box_without, on_grid, united
 from preimage.geometry.tolerance import Tolerance
-from preimage.geometry.welding import area_left_of, welded
+from preimage.geometry.welding import welded
 from preimage.task.robot import Robot
 from preimage.task.task import Task
 from preimage.task.workspace import ChainObstacle, PolygonObstacle, Side, SolidSide, Workspace
@@ -62,28 +63,32 @@ def space_among(obstacles: Area, window: Box, walls: Iterable[Side]) -> Configur
     if free.is_empty:
         raise TaskError("obstacles", "no free space is left in the window")
     contact = contact_space(free, obstacles, window, walls, tolerance)
-    if len(contact) != free.corners:
-        free = area_left_of(contact.points, contact.ends)
+    straight = ~present(border(free)[0], contact.points)
+    if straight.any():
+        free = without_vertices(free, straight)
     return ConfigurationSpace(window, tolerance, free, obstacles, contact)
 
 
 def _on_its_grid(window: Box) -> tuple[Box, Tolerance]:
     """A window moved to the grid that goes with it."""
     tolerance = Tolerance.for_window(*window)
-    xmin, ymin, xmax, ymax = on_grid(np.asarray(window), tolerance.grid).tolist()
-    return (xmin, ymin, xmax, ymax), tolerance
+    return _box_on_grid(window, tolerance), tolerance
+
+
+def _box_on_grid(box: Box, tolerance: Tolerance) -> Box:
+    xmin, ymin, xmax, ymax = on_grid(np.asarray(box), tolerance.grid).tolist()
+    return xmin, ymin, xmax, ymax
 
 
 def c_obstacles(workspace: Workspace, robot: Robot, window: Box, tolerance: Tolerance) -> Area:
     """The union of the C-obstacles `B (+) (-A)`, in a box somewhat larger than the window."""
     outer = grown(window, MARGIN * max(window[2] - window[0], window[3] - window[1]))
-    if robot.is_point:
-        reach, box = 0.0, outer
-        shape = None
-    else:
+    outer = _box_on_grid(outer, tolerance)
+    box, shape = outer, None
+    if not robot.is_point:
         shape = -np.asarray(robot.shape, dtype=np.float64)
         reach = float(np.max(np.hypot(shape[:, 0], shape[:, 1])))
-        box = grown(outer, 2.0 * reach)
+        box = _box_on_grid(grown(outer, 2.0 * reach), tolerance)
     solid = [
         polygon_of_chain(obstacle, box)
         if isinstance(obstacle, ChainObstacle)

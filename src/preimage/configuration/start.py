@@ -13,9 +13,10 @@ from preimage.configuration.contact import ContactSpace, Floats
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.goals import clipped
 from preimage.configuration.location import along_segment, edges_at, vertices_at
-from preimage.configuration.region import Region, is_subset
+from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.errors import TaskError
+from preimage.geometry import area as areas
 from preimage.geometry.area import Area
 from preimage.geometry.border import border
 from preimage.geometry.clipping import distances
@@ -32,6 +33,9 @@ Point = tuple[float, float]
 
 DISC_SIDES = 64
 """A disc becomes a polygon of so many sides around it, 0.12 % of its radius too far at most."""
+
+ROUNDING = 4.0
+"""Slivers so many spacings of the grid thick are what rounding leaves of equal areas."""
 
 PROBES = 64
 """The distance of a start from a region is taken at so many of its points at most."""
@@ -100,16 +104,21 @@ def start_region(task: Task, space: ConfigurationSpace) -> Start:
 
 
 def covered(start: Start, region: Region, space: ConfigurationSpace) -> bool:
-    """Whether the robot is in the region, wherever in the start it is."""
-    near = space.tolerance.length
+    """Whether the robot is in the region, wherever in the start it is.
+
+    Without slack: what the region leaves out may be as thin as the line above a tip.
+    """
     if start.kind is StartKind.REGION:
-        return is_subset(start.region, region, space.tolerance)
+        inside, near = start.region, space.tolerance.length
+        return contact_set.is_subset(inside.contact, region.contact, near) and areas.is_subset(
+            inside.area, region.area, ROUNDING * space.tolerance.grid
+        )
     if start.kind is StartKind.EDGE_POINT:
-        return region.contact.contains(start.edge, start.distance, near)
+        return region.contact.contains(start.edge, start.distance, 0.0)
     if start.kind is StartKind.VERTEX:
         return all(region.contact.has_vertex(vertex) for vertex in start.vertices)
     assert start.point is not None
-    return region.area.distance(*start.point) <= near
+    return region.area.contains(*start.point)
 
 
 def _point(point: Point, space: ConfigurationSpace) -> Start:

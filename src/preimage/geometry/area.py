@@ -134,9 +134,7 @@ class Area:
     def contains_all(self, points: Floats) -> NDArray[np.bool_]:
         """The same for `(n, 2)` points."""
         shapely.prepare(self.geometry)
-        inside: NDArray[np.bool_] = shapely.intersects_xy(
-            self.geometry, points[:, 0], points[:, 1]
-        )
+        inside: NDArray[np.bool_] = shapely.intersects_xy(self.geometry, points[:, 0], points[:, 1])
         return inside
 
     def distance(self, x: float, y: float) -> float:

@@ -18,12 +18,10 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 MAX_NEIGHBOURS = 10**9
-"""Pairs of edges of one polygon whose boxes may overlap: GEOS looks at each in some 15 ns."""
-
-CROWDED = "too many edges lie side by side to be checked"
+"""Pairs of edges whose boxes may overlap: GEOS looks at each in some 15 ns."""
 
 _SURELY_CHEAP = 1000
-"""Edges of a ring that are never too many."""
+"""Edges of a group that are never too many."""
 
 _CHUNK = 16
 """Edges looked up at a time: each may cross all others, and all these pairs are held at once."""
@@ -79,9 +77,6 @@ def ring_fault(points: Floats, offsets: Integers) -> Fault | None:
     if same.any():
         ring, vertex = _place(int(np.argmax(same)), offsets)
         return Fault(ring, f"vertices {vertex} and {vertex + 1} are the same")
-    crowded = crowded_ring(points, offsets)
-    if crowded is not None:
-        return Fault(crowded, CROWDED)
     simple = shapely.is_simple(_linear_rings(points, offsets))
     if simple.all():
         return None
@@ -99,10 +94,6 @@ def hole_fault(exterior: Floats, holes: list[Floats]) -> Fault | None:
     >>> hole_fault(outer, [outer + 1.0])
     Fault(ring=0, rule='edge 0 crosses edge 1 of the polygon')
     """
-    rings = [exterior, *holes]
-    ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
-    if _overlapping_boxes(np.concatenate(rings), ends) > MAX_NEIGHBOURS:
-        return Fault(0, CROWDED)
     if shapely.is_valid(shapely.Polygon(exterior, holes)):
         return None
     filled = [shapely.Polygon(hole) for hole in holes]
@@ -141,8 +132,6 @@ def chain_fault(points: Floats) -> str | None:
     before, after = points[0] - points[1], points[-1] - points[-2]
     reach = 4.0 * (1.0 + np.hypot(*np.ptp(points, axis=0)))
     line = np.vstack([points[0] + _far(before, reach), points, points[-1] + _far(after, reach)])
-    if crowded_ring(line, np.array([0, len(line)])) is not None:
-        return CROWDED
     if not shapely.is_simple(shapely.LineString(line)):
         return _crossing(line, closed=False)
     if _rays_meet(points[0], before, points[-1], after):
@@ -162,8 +151,7 @@ def thin_fault(
     if not len(points):
         return None
     last = offsets[1:] - 1
-    following = np.arange(1, len(points) + 1)
-    following[last] = offsets[:-1]
+    following = _following(offsets, len(points))
     edges = points[following] - points
     lengths = np.hypot(edges[:, 0], edges[:, 1])
     if not closed:
@@ -186,18 +174,29 @@ def thin_fault(
     return None
 
 
-def crowded_ring(points: Floats, offsets: Integers) -> int | None:
-    """The ring with which the pairs of edges with overlapping boxes become too many to look at.
+def crowd_fault(points: Floats, offsets: Integers, groups: Integers) -> Fault | None:
+    """The group of rings with which the pairs of edges to be looked at become too many.
 
-    Long edges side by side, aslant, would make the checks of GEOS quadratic.
+    Long edges side by side, aslant, would make the checks of GEOS quadratic, so this check comes
+    before the others. Group `g` is the rings `groups[g]` to `groups[g + 1] - 1`; only edges of
+    one group are compared. The fault's ring is the number of the group.
     """
+    ends = points[_following(offsets, len(points))]
+    bounds = offsets[groups]
     total = 0.0
-    for ring in np.flatnonzero(np.diff(offsets) > _SURELY_CHEAP):
-        vertices = points[offsets[ring] : offsets[ring + 1]]
-        total += _overlapping_boxes(vertices, np.roll(vertices, -1, axis=0))
+    for group in np.flatnonzero(np.diff(bounds) > _SURELY_CHEAP):
+        edges = slice(bounds[group], bounds[group + 1])
+        total += _overlapping_boxes(points[edges], ends[edges])
         if total > MAX_NEIGHBOURS:
-            return int(ring)
+            return Fault(int(group), "too many edges lie side by side to be checked")
     return None
+
+
+def _following(offsets: Integers, count: int) -> Integers:
+    """For each vertex the next one of its ring."""
+    following = np.arange(1, count + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    return following
 
 
 def _overlapping_boxes(starts: Floats, ends: Floats) -> float:

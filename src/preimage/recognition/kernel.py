@@ -193,7 +193,8 @@ def _off_border(
     ends = [np.hypot(*(end[on_edge] - contact.points[edge]).T) for end in (part.starts, part.ends)]
     corners = part.feature[~on_edge] - readings.size
     own = ContactSet.of(edge, np.minimum(*ends), np.maximum(*ends), corners, margin)
-    left = _apart(space, own, rim, 4.0 * margin, lambda first, second: np.full(len(first), True))
+    # nearer than what the radius is larger by, so that nothing is lost beside what is cut out
+    left = _apart(space, own, rim, 0.5 * margin, lambda first, second: np.full(len(first), True))
     return contact_segments(contact, left, readings)
 
 

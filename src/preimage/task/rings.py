@@ -27,6 +27,7 @@ def stacked(rings: Sequence[Ring]) -> tuple[NDArray[np.float64], NDArray[np.int6
 
 def turned(rings: Sequence[Ring], keys: Sequence[str]) -> tuple[Ring, ...]:
     """The rings, each counter-clockwise from its own first vertex; refused by key if not simple."""
+    check_crowds([(ring,) for ring in rings], keys)
     points, offsets = stacked(rings)
     fault = simplicity.ring_fault(points, offsets)
     if fault is not None:
@@ -42,6 +43,15 @@ def reverse(ring: Ring) -> Ring:
     ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0))
     """
     return (ring[0], *ring[:0:-1])
+
+
+def check_crowds(groups: Sequence[Sequence[Ring]], keys: Sequence[str]) -> None:
+    """Refuse groups of rings whose edges are too many, and too near each other, to be compared."""
+    points, offsets = stacked([ring for group in groups for ring in group])
+    starts = np.concatenate([[0], np.cumsum([len(group) for group in groups])]).astype(np.int64)
+    fault = simplicity.crowd_fault(points, offsets, starts)
+    if fault is not None:
+        raise TaskError(keys[fault.ring], fault.rule)
 
 
 def check_chain(points: Ring, key: str) -> None:

@@ -12,6 +12,7 @@ from preimage.task import checks, limits
 from preimage.task.rings import (
     Ring,
     check_chain,
+    check_crowds,
     check_distance,
     check_holes,
     check_thickness,
@@ -178,6 +179,8 @@ class Workspace:
 
 def _turn_obstacles(obstacles: tuple[Obstacle, ...]) -> Iterator[Obstacle]:
     """The obstacles, polygons turned; refused if they are not simple."""
+    groups = [[ring for _, ring in obstacle.rings] for obstacle in obstacles]
+    check_crowds(groups, [f"obstacles[{index}]" for index in range(len(obstacles))])
     keys, rings = _rings(obstacles, PolygonObstacle)
     upright = iter(turned(rings, keys))
     for index, obstacle in enumerate(obstacles):

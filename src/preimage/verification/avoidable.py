@@ -240,9 +240,7 @@ class _Propagation:
         for vertex in (edge, self.next[edge]):
             if self.slabs.level[vertex] == level:
                 return self.vertices[vertex]
-        if self.target.has(edge, self._distance(edge, self.slabs.heights[level])):
-            return False
-        return below.edges[edge]
+        return below.edges[edge]  # also where an interval of the target ends at the level
 
     def _sources(
         self, level: int, cell: Cell, feet: list[bool], below: _Below, floors: list[Span]

@@ -1,0 +1,215 @@
+"""Pictures of anything that can be drawn: as a figure, as a file, as text."""
+
+from __future__ import annotations
+
+import io
+import os
+import threading
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from preimage.errors import InputError, UnsupportedError, shown
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from preimage.configuration.region import Region
+    from preimage.configuration.space import ConfigurationSpace
+    from preimage.preimages.preimage import Preimage
+    from preimage.reachability.backprojection import Backprojection
+    from preimage.strategy.strategy import Strategy
+    from preimage.task.task import Task
+
+    Subject = Task | ConfigurationSpace | Strategy | Preimage | Backprojection | Region
+
+
+class Format(Enum):
+    """What a picture is written as, by the ending of its file."""
+
+    SVG = "svg"
+    PNG = "png"
+    PDF = "pdf"
+
+
+_DRAWING = threading.RLock()
+"""matplotlib's settings are global: one picture is drawn at a time."""
+
+
+def format_of(path: str | os.PathLike[str]) -> Format:
+    """The format of a picture, by its file's ending; needs no matplotlib.
+
+    Raises
+    ------
+    InputError : if no picture has this ending.
+
+    >>> format_of("plan.SVG")
+    <Format.SVG: 'svg'>
+    """
+    ending = Path(path).suffix
+    try:
+        return Format(ending.lower().removeprefix("."))
+    except ValueError:
+        rule = f"must end in .svg, .png or .pdf, not in {shown(ending) if ending else 'nothing'}"
+        raise InputError(str(path), rule) from None
+
+
+def figure(
+    subject: Subject,
+    *,
+    task: Task | None = None,
+    space: ConfigurationSpace | None = None,
+    direction: float | None = None,
+    **options: Any,
+) -> Figure:
+    """A matplotlib figure of a task, a space, a strategy, or one of the stages of planning.
+
+    A strategy becomes a row of panels, one a motion; what has no strategy, a panel of what was
+    found. It belongs to no window and leaves matplotlib's settings as they were.
+
+    Parameters
+    ----------
+    task : the task of a stage: its goal, bounds and walls are drawn too.
+    space : its configuration space, if it is known already.
+    direction : the command that a region belongs to, as a kernel does; radians.
+    options : fields of `PictureOptions`.
+
+    Raises
+    ------
+    InputError : an option is out of its range, or a region comes without a task and a space.
+    UnsupportedError : matplotlib is not installed.
+    """
+    with _settings():
+        return _figure(subject, task, space, direction, options)
+
+
+def draw(
+    subject: Subject,
+    path: str | os.PathLike[str],
+    *,
+    task: Task | None = None,
+    space: ConfigurationSpace | None = None,
+    direction: float | None = None,
+    **options: Any,
+) -> None:
+    """Write a picture to a file, as SVG, PNG or PDF by its ending; the whole file or nothing.
+
+    The same subject gives the same bytes. Parameters as of `figure`.
+
+    Raises
+    ------
+    InputError, UnsupportedError : as `figure`, and for an unknown ending.
+    OSError : the file cannot be written.
+    """
+    kind = format_of(path)
+    with _settings():
+        made = _figure(subject, task, space, direction, options)
+        content = _rendered(made, kind, options.get("dpi"))
+    _write(Path(path), content)
+
+
+def svg(
+    subject: Subject,
+    *,
+    task: Task | None = None,
+    space: ConfigurationSpace | None = None,
+    direction: float | None = None,
+    **options: Any,
+) -> str:
+    """A picture as the text of an SVG, as notebooks show it. Parameters as of `figure`."""
+    with _settings():
+        made = _figure(subject, task, space, direction, options)
+        return _rendered(made, Format.SVG, None).decode("utf-8")
+
+
+@contextmanager
+def _settings() -> Iterator[None]:
+    """Our settings for matplotlib and nobody else's."""
+    try:
+        import matplotlib.style
+    except ImportError as error:
+        rule = "needs matplotlib, which is not installed: pip install 'preimage[draw]'"
+        raise UnsupportedError("picture", rule) from error
+    from preimage.rendering.style import PARAMETERS
+
+    with _DRAWING, matplotlib.style.context(["default", PARAMETERS]), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph")  # of names in rare scripts
+        yield
+
+
+def _figure(
+    subject: Subject,
+    task: Task | None,
+    space: ConfigurationSpace | None,
+    direction: float | None,
+    options: dict[str, Any],
+) -> Figure:
+    from preimage.configuration.region import Region
+    from preimage.configuration.space import ConfigurationSpace
+    from preimage.preimages.preimage import Preimage
+    from preimage.reachability.backprojection import Backprojection
+    from preimage.rendering import stages
+    from preimage.rendering.options import PictureOptions
+    from preimage.rendering.scene import Scene
+    from preimage.rendering.strategy import strategy_figure
+    from preimage.strategy.strategy import Strategy
+    from preimage.task.task import Task
+
+    chosen = PictureOptions(**options)
+
+    def scene(known: ConfigurationSpace | None) -> Scene:
+        if task is not None:
+            return Scene.of(task, space or known)
+        there = space or known
+        if there is None:
+            raise InputError("picture", "a region is drawn in the space of a task: give either")
+        return Scene(there, None, None, None)
+
+    match subject:
+        case Strategy():
+            return strategy_figure(subject, chosen)
+        case Task():
+            return stages.task_figure(subject, space, chosen)
+        case ConfigurationSpace():
+            return stages.space_figure(scene(subject), chosen)
+        case Preimage():
+            return stages.preimage_figure(subject, scene(subject.backprojection._space), chosen)
+        case Backprojection():
+            return stages.backprojection_figure(subject, scene(subject._space), chosen)
+        case Region():
+            return stages.region_figure(subject, scene(None), direction, chosen)
+
+
+def _rendered(made: Figure, kind: Format, dpi: int | None) -> bytes:
+    """The bytes of a picture; there is no date in them."""
+    from preimage.rendering.options import PictureOptions
+
+    metadata: dict[Format, dict[str, Any]] = {
+        Format.SVG: {"Date": None, "Creator": "preimage"},
+        Format.PNG: {"Software": "preimage"},
+        Format.PDF: {"CreationDate": None, "Creator": "preimage", "Producer": "matplotlib"},
+    }
+    title = {"Title": str(made.get_label())} if made.get_label() else {}
+    stream = io.BytesIO()
+    resolution = PictureOptions().dpi if dpi is None else dpi
+    made.savefig(stream, format=kind.value, dpi=resolution, metadata=metadata[kind] | title)
+    return stream.getvalue()
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Write a file whole, by way of a neighbour; what is no regular file, a pipe say, directly."""
+    if path.exists() and not path.is_file():
+        path.write_bytes(content)
+        return
+    path = path.resolve()
+    neighbour = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}.tmp")
+    try:
+        neighbour.write_bytes(content)
+        os.replace(neighbour, path)
+    except BaseException:
+        with suppress(OSError):
+            neighbour.unlink()
+        raise

@@ -9,6 +9,7 @@ the true arc, it touches the polyline too.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import cos, sin
@@ -148,14 +149,40 @@ def _survives(pieces: Pieces, rest: Area) -> bool:
     return bool(np.any(shapely.contains_properly(rest.geometry, middle)))
 
 
-def outward_pieces(
-    points: Floats,
-    following: Ints,
-    radius: float,
-    normals: Floats,
-    chosen: Bools | None = None,
-    depth: float = 0.0,
-) -> Pieces:
+@dataclass(frozen=True, slots=True, eq=False)
+class Wedges:
+    """The convex corners of an area, outside of which it grows by sectors of discs.
+
+    Parameters
+    ----------
+    points : (k, 2).
+    first, second : (k, 2) the outward normals of the edges that end and that start there, unit
+        vectors; the turn from the one to the other is to the left.
+    """
+
+    points: Floats
+    first: Floats
+    second: Floats
+
+    @classmethod
+    def none(cls) -> Wedges:
+        """No corners."""
+        return cls(np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2)))
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def near(self, area: Area, distance: float) -> Wedges:
+        """Those that are not much further than `distance` from an area."""
+        if not len(self) or area.is_empty:
+            return Wedges.none()
+        shapely.prepare(area.geometry)
+        # further than any corner of a polyline around a disc
+        near = shapely.dwithin(area.geometry, shapely.points(self.points), 2.0 * distance)
+        return Wedges(self.points[near], self.first[near], self.second[near])
+
+
+def outward_pieces(points: Floats, following: Ints, radius: float, normals: Floats) -> Pieces:
     """What an area gains by (+) D(radius), in convex pieces: rectangles on its edges, and sectors.
 
     A point outside the area is nearest either to the inside of an edge, and lies in the rectangle
@@ -166,11 +193,27 @@ def outward_pieces(
     ----------
     points, following : the border of the area, which is on the left (see `border`).
     normals : of the tangents that replace arcs (see `tangent_normals`).
-    chosen : (n,) the edges and vertices that are wanted; all by default.
+    """
+    rectangles, wedges = rectangle_pieces(points, following, radius)
+    return np.concatenate((rectangles, sector_pieces(wedges, radius, normals)))
+
+
+def rectangle_pieces(
+    points: Floats,
+    following: Ints,
+    radius: float,
+    chosen: Bools | None = None,
+    depth: float = 0.0,
+) -> tuple[Pieces, Wedges]:
+    """The rectangles of an area (+) D(radius), and the corners at which sectors are missing.
+
+    Parameters
+    ----------
+    chosen : (n,) the edges, and vertices at their starts, that are wanted; all by default.
     depth : how far the rectangles reach into the area, to hide what rounding did to its border.
     """
     if not len(points) or radius <= 0.0:
-        return _NONE
+        return _NONE, Wedges.none()
     along = points[following] - points
     along /= np.hypot(along[:, 0], along[:, 1])[:, None]
     outward = along[:, ::-1] * (1.0, -1.0)
@@ -182,30 +225,44 @@ def outward_pieces(
     corners = np.empty((len(edges), 4, 2))
     corners[:, 0], corners[:, 1] = start - depth * side, end - depth * side
     corners[:, 2], corners[:, 3] = end + radius * side, start + radius * side
-
     first = outward[before[edges]]
-    convex = np.flatnonzero(first[:, 0] * side[:, 1] > first[:, 1] * side[:, 0])
-    base, turn, turns = _turns(first[convex], side[convex], normals)
-    slack = _slack(points, radius)
-    inner = (turns > slack) & (turns < turn[:, None] - slack)
-    curved = np.any(inner, axis=1)
-    # where no tangent lies between the edges' own, these two meet in the rectangles' corners
-    sharp = convex[~curved]
-    meeting = start[sharp] + radius * _corners(first[sharp], side[sharp])
-    corners[sharp, 3] = meeting
+    turn = first[:, 0] * side[:, 1] - first[:, 1] * side[:, 0]
+    ahead = np.sum(first * side, axis=1) > 0.0
+    # a turn too slight for a sector: the rectangles meet in one corner
+    slight = np.flatnonzero(ahead & (np.abs(turn) <= _slack(points, radius)))
+    meeting = start[slight] + radius * side[slight]
     place = np.full(len(points), -1)
     place[edges] = np.arange(len(edges))
-    earlier = place[before[edges[sharp]]]
+    earlier = place[before[edges[slight]]]
     corners[earlier[earlier >= 0], 2] = meeting[earlier >= 0]
+    convex = turn > 0.0
+    convex[slight] = False
+    rectangles = np.asarray(shapely.polygons(corners), dtype=np.object_)
+    return rectangles, Wedges(start[convex], first[convex], side[convex])
 
-    pieces = np.asarray(shapely.polygons(corners), dtype=np.object_)
-    if not np.any(curved):
-        return pieces
-    bent = convex[curved]
-    inner, directions = inner[curved], base[curved, None] + turns[curved]
-    between = [np.sort(row[mask]).tolist() for row, mask in zip(directions, inner, strict=True)]
-    sectors = _sectors(start[bent], first[bent], side[bent], between, radius)
-    return np.concatenate((pieces, sectors))
+
+def sector_pieces(wedges: Wedges, radius: float, normals: Floats) -> Pieces:
+    """Sectors of discs, from outside, one at each corner."""
+    if not len(wedges) or radius <= 0.0:
+        return _NONE
+    base, turn, turns = _turns(wedges.first, wedges.second, normals)
+    slack = _slack(wedges.points, radius)
+    inner = (turns > slack) & (turns < turn[:, None] - slack)
+    angles = base[:, None] + turns
+    rings: list[tuple[float, float]] = []
+    which: list[int] = []
+    parts = zip(wedges.points.tolist(), wedges.first.tolist(), wedges.second.tolist(), strict=True)
+    for place, ((x, y), one, other) in enumerate(parts):
+        between = np.sort(angles[place, inner[place]]).tolist()
+        sides = [one, *((cos(angle), sin(angle)) for angle in between), other]
+        ring = [(x, y), (x + radius * one[0], y + radius * one[1])]
+        for (ux, uy), (vx, vy) in pairwise(sides):
+            scale = radius / (1.0 + ux * vx + uy * vy)
+            ring.append((x + scale * (ux + vx), y + scale * (uy + vy)))
+        ring.append((x + radius * other[0], y + radius * other[1]))
+        rings.extend(ring)
+        which.extend([place] * len(ring))
+    return np.asarray(shapely.polygons(shapely.linearrings(rings, indices=which)), np.object_)
 
 
 def stadium_pieces(starts: Floats, ends: Floats, radius: float, normals: Floats) -> Pieces:
@@ -245,34 +302,6 @@ def _turns(first: Floats, second: Floats, normals: Floats) -> tuple[Floats, Floa
 def _slack(points: Floats, radius: float) -> float:
     """Tangents that differ by less have corners that rounding cannot tell apart; radians."""
     return max(ANGLE, float(64.0 * np.finfo(float).eps * np.max(np.abs(points)) / radius))
-
-
-def _sectors(
-    centers: Floats,
-    first: Floats,
-    second: Floats,
-    between: list[list[float]],
-    radius: float,
-) -> Pieces:
-    """Sectors of discs, from outside, counter-clockwise from one unit vector to another.
-
-    Parameters
-    ----------
-    between : of each, the angles of the normals of the tangents between both, ascending.
-    """
-    rings: list[tuple[float, float]] = []
-    which: list[int] = []
-    parts = zip(centers.tolist(), first.tolist(), second.tolist(), between, strict=True)
-    for place, ((x, y), one, other, angles) in enumerate(parts):
-        sides = [one, *((cos(angle), sin(angle)) for angle in angles), other]
-        ring = [(x, y), (x + radius * one[0], y + radius * one[1])]
-        for (ux, uy), (vx, vy) in pairwise(sides):
-            scale = radius / (1.0 + ux * vx + uy * vy)
-            ring.append((x + scale * (ux + vx), y + scale * (uy + vy)))
-        ring.append((x + radius * other[0], y + radius * other[1]))
-        rings.extend(ring)
-        which.extend([place] * len(ring))
-    return np.asarray(shapely.polygons(shapely.linearrings(rings, indices=which)), np.object_)
 
 
 def _corners(first: Floats, second: Floats) -> Floats:

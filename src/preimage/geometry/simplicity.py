@@ -195,7 +195,8 @@ def crowd_fault(points: Floats, offsets: Integers, groups: Integers) -> Fault | 
 def _following(offsets: Integers, count: int) -> Integers:
     """For each vertex the next one of its ring."""
     following = np.arange(1, count + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
+    filled = np.diff(offsets) > 0
+    following[offsets[1:][filled] - 1] = offsets[:-1][filled]
     return following
 
 

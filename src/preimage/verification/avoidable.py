@@ -246,7 +246,12 @@ class _Propagation:
         self, level: int, cell: Cell, feet: list[bool], below: _Below, floors: list[Span]
     ) -> tuple[Span, ...]:
         """The places of a cell's floor in `N`, widened where a side is."""
-        places: list[Span] = self._clipped(floors, cell.floor)
+        # an edge ends before its end vertex, which speaks for itself: no touching in a point
+        places = [
+            (low, high)
+            for low, high in self._clipped(floors, cell.floor)
+            if high - low > self.tolerance
+        ]
         for lower, reached in zip(below.cells, below.reached, strict=True):
             view = (max(lower.ceiling[0], cell.floor[0]), min(lower.ceiling[1], cell.floor[1]))
             places.extend(self._clipped(reached, view))

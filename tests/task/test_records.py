@@ -104,6 +104,7 @@ def test_records_are_frozen() -> None:
 def test_a_robot_is_a_point_or_has_a_shape() -> None:
     assert Robot().is_point
     assert Robot().shape == ((0.0, 0.0),)
+    assert Robot(None, (1.0, 2.0)) == Robot()
     robot = Robot(reverse(SQUARE), (2.0, 0.0))
     assert not robot.is_point
     assert robot.shape == ((-2.0, 0.0), (2.0, 0.0), (2.0, 4.0), (-2.0, 4.0))

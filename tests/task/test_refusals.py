@@ -84,6 +84,7 @@ TABLE: list[tuple[Path, Any, str, bool]] = [
     (("walls",), ["left", "left"], "walls[1]: names left again", True),
     # robot
     (("robot",), "disc", "robot: must be point or a mapping, not 'disc'", True),
+    (("robot", "polygon"), None, "robot.polygon: must be a list, not nothing", True),
     (("robot", "reference"), GONE, "robot.reference: is missing", True),
     (("robot", "polygon"), [[0, 0], [1, 0]], "robot.polygon: must have 3 vertices or more", True),
     (

@@ -221,7 +221,8 @@ def within_box(a: Area, xmin: float, ymin: float, xmax: float, ymax: float) -> A
     box = a.bounds
     if xmin <= box[0] and ymin <= box[1] and box[2] <= xmax and box[3] <= ymax:
         return a
-    return Area.of(shapely.intersection(a.geometry, shapely.box(xmin, ymin, xmax, ymax)))
+    view = shapely.box(xmin, ymin, xmax, ymax)
+    return Area.of(shapely.intersection(a.geometry, view, grid_size=grid_of(a)))
 
 
 def is_subset(a: Area, b: Area, tolerance: float) -> bool:

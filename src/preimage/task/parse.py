@@ -214,7 +214,8 @@ def _robot(value: object) -> Robot:
         return Robot()
     if isinstance(value, Mapping):
         mapping = fields(value, "robot", ("polygon", "reference"))
-        return Robot(mapping["polygon"], mapping["reference"])
+        polygon = checks.points(mapping["polygon"], "robot.polygon")
+        return Robot(polygon, mapping["reference"])
     raise TaskError("robot", f"must be point or a mapping, not {shown(value)}")
 
 

@@ -17,7 +17,8 @@ class Robot:
     Parameters
     ----------
     polygon : the vertices, turned counter-clockwise; `None` for a point.
-    reference : the point whose position is the robot's configuration; it may lie outside.
+    reference : the point whose position is the robot's configuration; it may lie outside. A point
+        robot is its own.
 
     Raises
     ------
@@ -34,6 +35,7 @@ class Robot:
         """Refuse what is not simple, and turn the rest."""
         object.__setattr__(self, "reference", checks.point(self.reference, "robot.reference"))
         if self.polygon is None:
+            object.__setattr__(self, "reference", (0.0, 0.0))
             return
         polygon = checks.points(self.polygon, "robot.polygon")
         if len(polygon) > limits.MAX_ROBOT_VERTICES:

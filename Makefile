@@ -48,8 +48,10 @@ endif
 
 # --- using ----------------------------------------------------------------------------------
 
-demo: build ## plan a named task
-	$(BIN)/preimage plan --example peg-in-hole
+demo: build ## plan peg-in-hole, print the plan, leave it and its picture in build/demo
+	@mkdir -p build/demo
+	$(BIN)/preimage plan --example peg-in-hole --method combined \
+	    -o build/demo/peg-in-hole.json --figure build/demo/peg-in-hole.png
 
 bench: build ## run the benchmarks
 	$(BIN)/python -m benchmarks --page docs/benchmarks.md
@@ -69,8 +71,8 @@ types: build ## mypy --strict
 contracts: build ## import-linter: the floors
 	$(BIN)/lint-imports --no-logo
 
-pytest: build ## tests and doctests
-	$(BIN)/pytest -n $(WORKERS)
+pytest: build ## tests and doctests; with CI set, the slow ones too
+	$(BIN)/pytest -n $(WORKERS) $(if $(CI),,-m "not slow")
 
 format: build ## ruff: mend what can be mended
 	$(BIN)/ruff check --fix .

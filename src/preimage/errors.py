@@ -50,7 +50,7 @@ class PlanFileError(InputError):
     """A plan file that is refused."""
 
 
-class UnsupportedError(PreimageError):
+class UnsupportedError(InputError):
     """A legal request that this version cannot serve."""
 
 

@@ -40,6 +40,7 @@ class Backprojection(Shown):
 
     Parameters
     ----------
+    space : where.
     target : the region that is met.
     direction : the commanded direction, radians.
     rays : (r, 2, 2) the rays that bound it inside free space, from the feature where nature can
@@ -47,11 +48,11 @@ class Backprojection(Shown):
     events : how many points the sweep stopped at.
     """
 
+    space: ConfigurationSpace
     target: Region
     direction: float
     rays: Floats
     events: int
-    _space: ConfigurationSpace
     _rings: tuple[Floats, Ints, Ints]
     _contact: tuple[Ints, Floats, Floats, NDArray[np.uint8]]
 
@@ -143,7 +144,7 @@ def _sweep(
         direction=command.direction,
         rays=rays.reshape(-1, 2, 2),
         events=events,
-        _space=space,
+        space=space,
         _rings=(points.reshape(-1, 2), start, shell),
         _contact=(edge, low, high, vertex),
     )
@@ -157,7 +158,7 @@ def _nowhere(space: ConfigurationSpace, target: Region, command: Sources) -> Bac
         direction=command.direction,
         rays=np.empty((0, 2, 2)),
         events=0,
-        _space=space,
+        space=space,
         _rings=(np.empty((0, 2)), np.zeros(1, dtype=np.int32), none),
         _contact=(none, empty, empty, np.zeros(len(space.contact), dtype=np.uint8)),
     )

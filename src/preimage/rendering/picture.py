@@ -176,9 +176,9 @@ def _figure(
         case ConfigurationSpace():
             return stages.space_figure(scene(subject), chosen)
         case Preimage():
-            return stages.preimage_figure(subject, scene(subject.backprojection._space), chosen)
+            return stages.preimage_figure(subject, scene(subject.backprojection.space), chosen)
         case Backprojection():
-            return stages.backprojection_figure(subject, scene(subject._space), chosen)
+            return stages.backprojection_figure(subject, scene(subject.space), chosen)
         case Region():
             return stages.region_figure(subject, scene(None), direction, chosen)
 

@@ -16,6 +16,7 @@ from matplotlib.legend import Legend
 from matplotlib.textpath import TextPath
 from matplotlib.ticker import MaxNLocator
 
+from preimage.rendering.glyphs import COMPASS
 from preimage.rendering.legend import Glyph, Key, keys, proxy
 from preimage.rendering.options import PictureOptions
 from preimage.rendering.panel import FRAME, POINTS_AN_INCH, Panel
@@ -36,7 +37,7 @@ AREA = 9.6
 """Square inches: the size of a panel, tall or wide."""
 
 NARROWEST, WIDEST = 2.3, 6.6
-SHORTEST, TALLEST = 0.7, 6.0
+SHORTEST, TALLEST = 0.3, 6.0
 """Inches: bounds of a panel's sides."""
 
 PAGE = 10.4
@@ -47,6 +48,9 @@ SMALLER = 0.72
 
 LONG = 2.5
 """Panels this many times as wide as high are not made smaller."""
+
+LOW, ROOM_ABOVE = 110.0, 2.0 * COMPASS + 5.0
+"""Points: in panels that are lower, a direction has its own room above."""
 
 LEADING = 1.28
 """The distance of lines of text, in their size."""
@@ -67,21 +71,24 @@ class Plate:
     name : of the panel, in ids.
     heading, detail : its title, and what is said below it.
     paint : draws it.
+    compass : whether a direction is drawn in it.
     """
 
     name: str
     heading: str
     detail: str
     paint: Callable[[Panel], None]
+    compass: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Sizes in points: of panels, each `wide` by `high`, and of a length of 1, 1 / `unit`."""
+    """Sizes in points: of panels, each `wide` by `high`; `unit` is the length of a point."""
 
     columns: int
     wide: float
     high: float
+    above: float
     unit: float
     ticks: tuple[float, float]
     xticks: tuple[float, ...]
@@ -105,7 +112,9 @@ def compose(
     words : names for layers that are not the usual ones.
     command : whether bounds on all errors matter, and go into the legend.
     """
-    layout = arrange(scene.box, len(plates), options)
+    layout = arrange(
+        scene.box, len(plates), options, compass=any(plate.compass for plate in plates)
+    )
     figure = Figure(figsize=(1.0, 1.0))
     figure.set_label(title)
     FigureCanvasAgg(figure)
@@ -129,8 +138,12 @@ def compose(
 # --- sizes ------------------------------------------------------------------------------------
 
 
-def arrange(box: Box, count: int, options: PictureOptions) -> Layout:
+def arrange(box: Box, count: int, options: PictureOptions, *, compass: bool = False) -> Layout:
     """How many panels stand in a row, and how large they are.
+
+    Parameters
+    ----------
+    compass : whether a direction is drawn in each; above a low window room is made for it.
 
     >>> options = PictureOptions()
     >>> [arrange((0, 0, 4, 4), count, options).columns for count in (1, 2, 3, 4, 5, 8)]
@@ -156,10 +169,11 @@ def arrange(box: Box, count: int, options: PictureOptions) -> Layout:
         high = limit
     xticks = _ticks(xmin, xmax, max(2, round((xmax - xmin) / unit / 44.0)))
     yticks = _ticks(ymin, ymax, max(2, round((ymax - ymin) / unit / 36.0)))
-    high = max(high, SHORTEST * POINTS_AN_INCH) + frame
+    above = ROOM_ABOVE if compass and high < LOW else 0.0
+    high = max(high, SHORTEST * POINTS_AN_INCH) + frame + above
     longest = max((len(label(value)) for value in yticks), default=1)
     room = (max(TICK_ROOM[0], 4.0 * longest + 8.0), TICK_ROOM[1]) if options.ticks else (0.0, 0.0)
-    return Layout(columns, wide * POINTS_AN_INCH, high, unit, room, xticks, yticks)
+    return Layout(columns, wide * POINTS_AN_INCH, high, above, unit, room, xticks, yticks)
 
 
 def _room(columns: int) -> float:
@@ -229,7 +243,7 @@ def wrapped(words: str, width: float, size: float, bold: bool = False) -> list[s
 
 def _prepare(axes: Axes, box: Box, layout: Layout) -> None:
     """Equal scales about the middle of the box, few ticks, no frame."""
-    middle = 0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])
+    middle = 0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3] + layout.above * layout.unit)
     half = 0.5 * layout.wide * layout.unit, 0.5 * layout.high * layout.unit
     axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
     axes.set_ylim(middle[1] - half[1], middle[1] + half[1])

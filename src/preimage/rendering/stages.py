@@ -53,19 +53,20 @@ def region_figure(
     """The figure of a region, such as a kernel, in its scene."""
     heading = "Kernel" if direction is not None else "Region"
     towards = "" if direction is None else f" for {degrees(direction)}"
-    plate = _plate("kernel", f"{heading}{towards}", target_words(region), scene, options)
 
     def paint(panel: Panel) -> None:
-        plate.paint(panel)
+        draw_scene(panel, scene, start=False)
         draw_region(panel, Layer.TARGET, region)
         _finish(panel, scene, direction, region, options)
         if options.names:
             draw_name(panel, r"$\mathcal{T}$", Layer.TARGET, region)
 
     words = {Layer.TARGET: r"kernel $\mathcal{T}$"} if direction is not None else None
-    painted = Plate(plate.name, plate.heading, plate.detail, paint)
+    plate = Plate(
+        "kernel", f"{heading}{towards}", target_words(region), paint, compass=direction is not None
+    )
     return compose(
-        scene, [painted], _name(scene), options, words=words, command=direction is not None
+        scene, [plate], _name(scene), options, words=words, command=direction is not None
     )
 
 
@@ -76,10 +77,9 @@ def backprojection_figure(
     region, target = backprojection.region, backprojection.target
     heading = f"Backprojection for {degrees(backprojection.direction)}"
     words = f"of {target_words(target)}: {target_words(region)}"
-    plate = _plate("backprojection", heading, words, scene, options)
 
     def paint(panel: Panel) -> None:
-        plate.paint(panel)
+        draw_scene(panel, scene, start=False)
         draw_region(panel, Layer.TARGET, target)
         draw_region(panel, Layer.PREIMAGE, region, plain=target.area)
         draw_rays(panel, backprojection.rays)
@@ -88,9 +88,9 @@ def backprojection_figure(
             draw_name(panel, r"$\mathcal{B}$", Layer.PREIMAGE, region)
             draw_name(panel, r"$\mathcal{T}$", Layer.TARGET, target)
 
-    painted = Plate(plate.name, plate.heading, plate.detail, paint)
+    plate = Plate("backprojection", heading, words, paint, compass=True)
     return compose(
-        scene, [painted], _name(scene), options,
+        scene, [plate], _name(scene), options,
         words={Layer.PREIMAGE: r"backprojection $\mathcal{B}$"}, command=True,
     )  # fmt: skip
 
@@ -104,10 +104,9 @@ def preimage_figure(preimage: Preimage, scene: Scene, options: PictureOptions) -
     if target.region.is_empty:
         words = "no part of the goal is recognised"
     scene = Scene(scene.space, scene.task, preimage.goal, scene.start)
-    plate = _plate("preimage", heading, words, scene, options)
 
     def paint(panel: Panel) -> None:
-        plate.paint(panel)
+        draw_scene(panel, scene, start=False)
         draw_region(panel, Layer.TARGET, target.kernel)
         draw_region(panel, Layer.STICKING, target.sticking)
         draw_region(panel, Layer.PREIMAGE, preimage.region, plain=target.kernel.area)
@@ -117,19 +116,12 @@ def preimage_figure(preimage: Preimage, scene: Scene, options: PictureOptions) -
             draw_name(panel, r"$\mathcal{G}$", Layer.GOAL, preimage.goal)
             draw_name(panel, r"$\mathcal{P}$", Layer.PREIMAGE, preimage.region)
 
-    painted = Plate(plate.name, plate.heading, plate.detail, paint)
+    plate = Plate("preimage", heading, words, paint, compass=True)
     return compose(
-        scene, [painted], _name(scene), options,
+        scene, [plate], _name(scene), options,
         words={Layer.TARGET: "target: kernel", Layer.STICKING: "target: sticks for sure"},
         command=True,
     )  # fmt: skip
-
-
-def _plate(name: str, heading: str, words: str, scene: Scene, options: PictureOptions) -> Plate:
-    def paint(panel: Panel) -> None:
-        draw_scene(panel, scene, start=False)
-
-    return Plate(name, heading, words, paint)
 
 
 def _finish(

@@ -173,7 +173,7 @@ def _motion_plate(
                 draw_name(panel, names.get(subgoal.id, ""), Layer.SUBGOAL, subgoal.region)
 
     name = f"motion-{place + 1}" if strategy.steps else f"region-{region.id}"
-    return Plate(name, heading, detail(motion, goal), paint)
+    return Plate(name, heading, detail(motion, goal), paint, compass=True)
 
 
 def without_contact(region: Region) -> Region:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
+from preimage.configuration.contact_set import intersection
+from preimage.configuration.location import inside_area
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.recognition.termination import (
@@ -48,12 +52,10 @@ def describe(strategy: Strategy) -> str:
     return "\n".join([*_headline(strategy), *_body(strategy), *_totals(strategy)])
 
 
-def describe_condition(
-    condition: Condition, goals: tuple[int, ...], space: ConfigurationSpace
-) -> str:
+def describe_condition(condition: Condition, goals: tuple[int, ...]) -> str:
     """When a condition ends a motion.
 
-    >>> describe_condition(StickingCondition(2.5, 0.25), (0,), None)
+    >>> describe_condition(StickingCondition(2.5, 0.25), (0,))
     'the measured position has moved by at most 0.25 within the last 2.5 of time'
     """
     match condition:
@@ -69,16 +71,19 @@ def describe_condition(
             return f"every place that fits the readings{within} is in {_regions(goals)}"
 
 
-def contact_share(region: Region) -> str:
-    """How much of a region is contact."""
-    if region.area.is_empty:
-        return "nothing but contact" if not region.contact.is_empty else "nothing"
+def contact_share(region: Region, space: ConfigurationSpace) -> str:
+    """How much of a region is contact: of the outline of its free space and of its edges."""
     if region.contact.is_empty:
-        return "free space only, no contact"
-    edges, corners = region.contact.total_length, len(region.contact.vertices)
-    parts = [f"edges of length {number(edges)}"] if edges else []
-    parts += [count(corners, "vertex", "vertices")] if corners else []
-    return f"{joined(parts)}, beside free space of area {number(region.area.measure)}"
+        return "none of it" if not region.is_empty else "nothing to touch"
+    if region.area.is_empty:
+        return "all of it"
+    near = space.tolerance.length
+    starts, ends = region.area.segments
+    outline = float(np.sum(np.hypot(*(ends - starts).T)))
+    beside = inside_area(space.contact, region.area, near)
+    along = intersection(region.contact, beside, near).total_length
+    edges = region.contact.total_length
+    return f"{edges / (outline + edges - along):.0%} of its outline"
 
 
 def start_words(initial: Initial) -> str:
@@ -149,15 +154,15 @@ def _motion(strategy: Strategy, region: StrategyRegion, name: str) -> Iterator[s
     yield f"  aims at     {region_words(motion.target)}"
     for line in contact_lines(motion.target, strategy.space):
         yield f"              {line}"
-    yield f"  contact     {contact_share(motion.target)}"
-    yield from _conditions(motion, strategy.space)
+    yield f"  contact     {contact_share(motion.target, strategy.space)}"
+    yield from _conditions(motion)
     yield f"  then it is  in {_regions(motion.goals, 'or')}"
 
 
-def _conditions(motion: Motion, space: ConfigurationSpace) -> Iterator[str]:
+def _conditions(motion: Motion) -> Iterator[str]:
     for index, condition in enumerate(motion.termination):
         lead = "or as soon as" if index else "stops as soon as"
-        yield f"  {lead} {describe_condition(condition, motion.goals, space)}"
+        yield f"  {lead} {describe_condition(condition, motion.goals)}"
 
 
 def _what_was_found(strategy: Strategy) -> Iterator[str]:

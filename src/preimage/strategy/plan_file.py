@@ -97,11 +97,12 @@ def _region(region: StrategyRegion, space: ConfigurationSpace) -> Data:
     if motion is not None:
         data["goals"] = [int(goal) for goal in motion.goals]
         data["target"] = region_to_geojson(motion.target, space)
-        data["termination"] = [_condition(one, space) for one in motion.termination]
+        data["termination"] = [condition_to_dict(one, space) for one in motion.termination]
     return data
 
 
-def _condition(condition: Condition, space: ConfigurationSpace) -> Data:
+def condition_to_dict(condition: Condition, space: ConfigurationSpace) -> Data:
+    """The data of a termination condition."""
     match condition:
         case StickingCondition(period=period, distance=distance):
             return {"kind": "sticking", "period": float(period), "distance": float(distance)}

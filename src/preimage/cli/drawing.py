@@ -1,0 +1,54 @@
+"""`preimage draw`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import click
+
+from preimage.cli.arguments import document, load, stem, task_argument
+from preimage.cli.command import Command
+from preimage.cli.output import STANDARD, about, check_outputs, picture, say
+
+
+@click.command(
+    "draw",
+    cls=Command,
+    short_help="Draw a task or a plan.",
+    examples=[
+        "preimage draw task.yaml -o scene.svg",
+        "preimage draw plan.json -o plan.pdf",
+        "preimage draw --example peg-in-hole -o scene.png --edge-numbers",
+    ],
+)
+@task_argument
+@click.option("-o", "--output", metavar="FILE", required=True, help="A picture: .svg, .png, .pdf.")
+@click.option("--columns", type=int, metavar="N", help="Panels beside each other.")
+@click.option("--edge-numbers", is_flag=True, help="Number the contact edges.")
+@click.option("--friction-cones", is_flag=True, help="Draw friction cones.")
+def draw_command(
+    path: str | None, example: str | None, output: str, **options: int | bool | None
+) -> int:
+    """Draw TASK, or a plan: a panel for each motion.
+
+    The file is a task or, as written by `preimage plan -o`, a plan.
+    """
+    check_outputs([path], figure=output)
+    picture(_subject(path, example), output, **options)
+    say(f"written: {output}")
+    return 0
+
+
+def _subject(path: str | None, example: str | None) -> object:
+    """A strategy or a task."""
+    if path is None or example is not None:
+        return load(path, example).task
+    data, name = document(path)
+    with about(name):
+        if isinstance(data, Mapping) and ("regions" in data or "status" in data):
+            from preimage.strategy.plan_parse import parse_plan
+
+            return parse_plan(data)
+        from preimage.task.parse import parse_task
+
+        return parse_task(data, name="task" if path == STANDARD else stem(path))

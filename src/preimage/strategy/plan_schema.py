@@ -1,0 +1,151 @@
+"""The JSON Schema of plan files: what can be said of them without geometry.
+
+It is published as `docs/plan.schema.json`, for editors and other programs.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+from typing import Any
+
+from preimage.geometry.geojson import MAX_COORDINATE
+from preimage.strategy.plan_parse import (
+    CONDITIONS,
+    DISTANCE,
+    MOTION,
+    NUMBER,
+    OPTIONAL,
+    PERIOD,
+    REQUIRED,
+    SECONDS,
+    STATISTICS,
+    VERSION,
+)
+from preimage.strategy.strategy import Status
+from preimage.task import limits
+from preimage.task.limits import Range
+from preimage.task.options import StrategyKind
+from preimage.task.schema import DIALECT, task_schema
+
+Schema = dict[str, Any]
+
+
+def plan_schema() -> Schema:
+    """The schema of plan files, version 1, as a mapping.
+
+    >>> plan_schema()["required"]
+    ['version', 'task', 'status', 'strategy', 'regions', 'start']
+    """
+    task = {word: value for word, value in task_schema().items() if word != "$schema"}
+    definitions = {**task.pop("$defs"), "task": task, **_geometries()}
+    definitions["region"] = _region()
+    definitions["condition"] = {"oneOf": [_condition(kind) for kind in CONDITIONS]}
+    top: Schema = {
+        "version": {"const": VERSION, "description": "of the file's format"},
+        "task": {"$ref": "#/$defs/task"},
+        "status": _choice(Status),
+        "strategy": _choice(StrategyKind),
+        "regions": {"type": "array", "items": {"$ref": "#/$defs/region"}, "minItems": 1},
+        "start": {**_ids(), "description": "the regions that may be chosen at the start"},
+        "steps": {**_ids(), "description": "of a linear plan, in the order of execution"},
+        "statistics": {
+            "type": "object",
+            "properties": dict(
+                zip(STATISTICS, (_number(NUMBER, "integer"), _number(SECONDS)), strict=True)
+            ),
+            "additionalProperties": False,
+        },
+    }
+    return {
+        "$schema": DIALECT,
+        "title": "Plan of preimage",
+        "description": "Lengths in the task's unit, angles in degrees, counter-clockwise from +x.",
+        "type": "object",
+        "properties": {word: top[word] for word in (*REQUIRED, *OPTIONAL)},
+        "required": list(REQUIRED),
+        "additionalProperties": False,
+        "$defs": definitions,
+    }
+
+
+def _region() -> Schema:
+    """The goal, or a preimage with all that belongs to its motion."""
+    geometry: Schema = {"$ref": "#/$defs/geometry"}
+    common: Schema = {"id": _number(NUMBER, "integer"), "rank": _number(NUMBER, "integer")}
+    goal = {**common, "id": {"const": 0}, "rank": {"const": 0}, "geometry": geometry}
+    motion: Schema = {
+        "direction": _number(limits.DIRECTION),
+        "goals": {**_ids(), "minItems": 1},
+        "target": geometry,
+        "termination": {
+            "type": "array",
+            "items": {"$ref": "#/$defs/condition"},
+            "minItems": 1,
+        },
+    }
+    above = {word: {**rule, "minimum": 1} for word, rule in common.items()}
+    preimage = {**above, "geometry": geometry, **{word: motion[word] for word in MOTION}}
+    return {"oneOf": [_record(goal), _record(preimage)]}
+
+
+def _condition(kind: str) -> Schema:
+    values: Schema = {
+        "period": _number(PERIOD),
+        "distance": _number(DISTANCE),
+        "domain": {"oneOf": [{"const": "valid"}, {"$ref": "#/$defs/geometry"}]},
+    }
+    return _record({"kind": {"const": kind}, **{word: values[word] for word in CONDITIONS[kind]}})
+
+
+def _geometries() -> Schema:
+    """GeoJSON geometries of the plane, RFC 7946."""
+    coordinate = {"type": "number", "minimum": -MAX_COORDINATE, "maximum": MAX_COORDINATE}
+    position: Schema = {"$ref": "#/$defs/position"}
+    line = _list(position, 2)
+    polygon = _list(_list(position, 4), 1)
+    kinds = {"Point": position, "LineString": line, "Polygon": polygon}
+    kinds |= {f"Multi{kind}": _list(inner) for kind, inner in kinds.items()}
+    several = _list({"$ref": "#/$defs/geometry"})
+    return {
+        "position": {**_list(coordinate, 2), "maxItems": 2},
+        "geometry": {
+            "oneOf": [
+                *(
+                    _record({"type": {"const": kind}, "coordinates": inner})
+                    for kind, inner in kinds.items()
+                ),
+                _record({"type": {"const": "GeometryCollection"}, "geometries": several}),
+            ]
+        },
+    }
+
+
+def _record(properties: Schema) -> Schema:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": list(properties),
+        "additionalProperties": False,
+    }
+
+
+def _ids() -> Schema:
+    return {"type": "array", "items": _number(NUMBER, "integer"), "uniqueItems": True}
+
+
+def _list(item: Schema, least: int = 0) -> Schema:
+    return {"type": "array", "items": item, **({"minItems": least} if least else {})}
+
+
+def _choice(kind: type[Enum]) -> Schema:
+    return {"enum": [member.value for member in kind]}
+
+
+def _number(within: Range, kind: str = "number") -> Schema:
+    schema: Schema = {"type": kind}
+    if math.isfinite(within.low):
+        schema["exclusiveMinimum" if within.low_open else "minimum"] = within.low
+    if math.isfinite(within.high):
+        schema["exclusiveMaximum" if within.high_open else "maximum"] = within.high
+    return schema

@@ -13,6 +13,7 @@ import numpy as np
 from benchmarks.halls import hall, united_by_geos
 from benchmarks.timing import Row, best
 from preimage.configuration.contact import ContactSpace
+from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry.angles import unit
 from preimage.reachability.backprojection import backproject
@@ -25,6 +26,11 @@ CONTROL, FRICTION = math.radians(5), math.radians(20)
 def command(space: ConfigurationSpace, direction: float = DOWN) -> Sources:
     """What features do to a motion along a direction."""
     return sources(space.contact, direction, CONTROL, FRICTION, space.tolerance)
+
+
+def region(space: ConfigurationSpace, goal: Region, along: Sources) -> Region:
+    """A backprojection down to its polygons."""
+    return backproject(space, goal, along).region
 
 
 def event_keys(contact: ContactSpace) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
@@ -42,7 +48,7 @@ def growth() -> list[Row]:
         _ = space.contact.place, space.contact.previous
         down = command(space)
         spent = times[edges] = best(partial(backproject, space, goal, down))
-        whole = best(lambda s=space, g=goal, d=down: backproject(s, g, d).region)
+        whole = best(partial(region, space, goal, down))
         sort = best(partial(np.sort, event_keys(space.contact)))
         rows.append((f"hall of {edges:,} edges: sweep", spent, f"{spent / sort:.1f} x numpy.sort"))
         rows.append((f"hall of {edges:,} edges: sweep and region", whole, ""))

@@ -114,13 +114,13 @@ def test_pieces_need_not_know_the_whole_border(name: str) -> None:
     """Each edge and vertex brings its own; the area's other side does not matter."""
     points, following = border(SHAPES[name])
     normals = inflate.tangent_normals(0.005)
+    pieces = []
     chosen = np.arange(len(points)) % 2 == 0
-    halves = [
-        shapely.union_all(inflate.outward_pieces(points, following, 0.5, normals, half))
-        for half in (chosen, ~chosen)
-    ]
+    for half in (chosen, ~chosen):
+        sides, wedges = inflate.rectangle_pieces(points, following, 0.5, half)
+        pieces += [*sides, *inflate.sector_pieces(wedges, 0.5, normals)]
     whole = shapely.union_all(inflate.outward_pieces(points, following, 0.5, normals))
-    assert shapely.symmetric_difference(shapely.union_all(halves), whole).area < 1e-12
+    assert shapely.symmetric_difference(shapely.union_all(pieces), whole).area < 1e-12
 
 
 def test_convex_corners_of_what_is_left_are_exact() -> None:
@@ -135,7 +135,7 @@ def test_convex_corners_of_what_is_left_are_exact() -> None:
 def test_depth_hides_a_border_that_is_slightly_off() -> None:
     window, goal = Area.box(-10, -10, 10, 10), Area.box(-3, -2, 4, 5)
     rest = areas.difference(window, Area.box(-3 + 1e-11, -2, 4, 5 - 1e-11))
-    pieces = inflate.outward_pieces(*border(rest), 1.0, inflate.tangent_normals(0.005), depth=1e-9)
+    pieces, _ = inflate.rectangle_pieces(*border(rest), 1.0, depth=1e-9)
     left = inflate.without_slivers(inflate.shrunk_by(goal, pieces), 1e-9)
     assert len(left.parts) == 1
     assert left.bounds == pytest.approx((-2, -1, 3, 4), abs=1e-10)

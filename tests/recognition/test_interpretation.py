@@ -16,7 +16,7 @@ from preimage.recognition.outside import outside
 from tests.recognition.cases import Case, places_in, random_case, sampled_forces, seeds
 from tests.strategies import space_of
 
-SCENES = 60
+SCENES = 40
 
 
 def placed(case: Case, region: Region, rng: np.random.Generator) -> list[tuple[int, np.ndarray]]:

@@ -1,101 +1,34 @@
 """Kernels in closed form: Figures 7, 9, 10 and 16, and what theory 5 adds to them."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
-from shapely.geometry.base import BaseGeometry
 
 from preimage.configuration.contact_set import ContactSet
-from preimage.configuration.region import Region, is_subset
+from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry import area as areas
 from preimage.geometry.area import Area
-from preimage.recognition.kernel import kernel
-from preimage.recognition.readings import readings
-from preimage.task.uncertainty import Uncertainty
-from tests.strategies import contact_in
-from tests.strategies import space_of as small_space_of
-
-DOWN = -math.pi / 2
-SENSES = Uncertainty(math.radians(10), 0.5, math.radians(10), (0.05, 0.05))
-FRICTION = math.radians(20)
-EXACT = 1e-8  # the windows are 20 wide: 1e-9 of the scene and less
-
-Interval = tuple[int, float, float]
-
-
-def space_of(obstacles: Sequence[BaseGeometry]) -> ConfigurationSpace:
-    return small_space_of(obstacles, window=(-10, -10, 10, 10))
-
-
-def goal(space: ConfigurationSpace, *polygons: Area) -> Region:
-    """Polygons, with the contact on their border (paper 5.4)."""
-    area = areas.intersection(areas.union(*polygons), space.free)
-    edges, vertices = contact_in(space, area)
-    return Region(area, contact(space, edges, vertices))
-
-
-def contact(
-    space: ConfigurationSpace, edges: Sequence[Interval], vertices: Sequence[int] = ()
-) -> ContactSet:
-    return ContactSet.of(
-        [edge for edge, _, _ in edges],
-        [low for _, low, _ in edges],
-        [high for _, _, high in edges],
-        list(vertices),
-        space.tolerance.length,
-    )
-
-
-def kernel_of(
-    space: ConfigurationSpace,
-    target: Region,
-    senses: Uncertainty = SENSES,
-    domain: Region | None = None,
-    direction: float = DOWN,
-    friction: float = FRICTION,
-) -> Region:
-    sets = readings(space.contact, direction, senses, friction, space.tolerance)
-    return kernel(space, sets, target, senses, domain)
-
-
-def edge_at(space: ConfigurationSpace, x: float, y: float) -> int:
-    """The contact edge through a point."""
-    starts, ends = space.contact.points, space.contact.ends
-    lines = shapely.linestrings(np.stack((starts, ends), axis=1))
-    off = shapely.distance(lines, shapely.Point(x, y))
-    off[space.contact.open] = np.inf
-    assert np.min(off) < 1e-9
-    return int(np.argmin(off))
-
-
-def vertex_at(space: ConfigurationSpace, x: float, y: float) -> int:
-    off = np.hypot(*(space.contact.points - (x, y)).T)
-    assert np.min(off) < 1e-9
-    return int(np.argmin(off))
-
-
-def stretch(space: ConfigurationSpace, part: ContactSet, edge: int) -> list[list[float]]:
-    """What of an edge belongs, as pairs of points."""
-    on = part.edge == edge
-    ends = [space.contact.at(part.edge[on], end[on]) for end in (part.low, part.high)]
-    pairs = [sorted((low.tolist(), high.tolist())) for low, high in zip(*ends, strict=True)]
-    return [[*first, *second] for first, second in pairs]
-
-
-def assert_same_area(got: Area, expected: BaseGeometry, near: float = EXACT) -> None:
-    shape = got.geometry
-    thick = shapely.buffer(shapely.symmetric_difference(shape, expected), -near)
-    assert thick.is_empty, shape.wkt
-
-
-def disc(x: float, y: float, radius: float) -> BaseGeometry:
-    return shapely.buffer(shapely.Point(x, y), radius, quad_segs=256)
-
+from tests.recognition.scenes import (
+    BLOCK,
+    CORNERS,
+    DOWN,
+    EXACT,
+    ROOM,
+    SENSES,
+    assert_same_area,
+    contact,
+    disc,
+    edge_at,
+    goal,
+    kernel_of,
+    space_of,
+    stretch,
+    vertex_at,
+)
 
 # --- Figure 16: nothing but position ----------------------------------------------------------
 
@@ -137,8 +70,6 @@ def test_arcs_are_on_the_safe_side_and_touch_where_the_cone_does() -> None:
 
 
 # --- Figures 7, 8 and 10: a goal that lies partly on an obstacle ------------------------------
-
-BLOCK = shapely.box(-5, -6, 5, 0)
 
 
 def test_figure_7() -> None:
@@ -218,9 +149,6 @@ def test_figure_9c_with_different_sides() -> None:
 
 
 # --- features are kept apart (theory 5) -------------------------------------------------------
-
-ROOM = shapely.difference(shapely.box(-10, -10, 10, 10), shapely.box(-4, 0, 4, 6))
-CORNERS = [(-4.0, 0.0), (4.0, 0.0)]
 
 
 def test_floor_told_from_its_walls_but_not_from_its_corners() -> None:
@@ -349,101 +277,3 @@ def _on(space: ConfigurationSpace, edge: int, x: float) -> tuple[float, float]:
 def _band(space: ConfigurationSpace, edge: int, high: float) -> Area:
     points = [_on(space, edge, x) for x in (-9.0, 9.0)]
     return Area.polygon(np.array([*points, *[(x, y + high) for x, y in reversed(points)]]))
-
-
-# --- rho at its ends --------------------------------------------------------------------------
-
-
-def test_exact_position_keeps_all() -> None:
-    space = space_of([BLOCK])
-    target = goal(space, Area.box(-3, 0, 6, 4))
-    got = kernel_of(space, target, replace(SENSES, position=0.0))
-    assert is_subset(target, got, space.tolerance)
-
-
-def test_exact_position_confuses_vertices_in_one_place() -> None:
-    pinch = [shapely.box(-4, 0, 0, 4), shapely.box(0, -4, 4, 0)]
-    space = space_of(pinch)
-    there = np.flatnonzero(np.hypot(*space.contact.points.T) < 1e-9).astype(np.int32)
-    assert len(there) == 2
-    senses = replace(SENSES, position=0.0)
-    one = Region(Area.empty(), contact(space, [], [int(there[0])]))
-    assert kernel_of(space, one, senses).is_empty
-    both = Region(Area.empty(), contact(space, [], there.tolist()))
-    assert kernel_of(space, both, senses).contact.vertices.tolist() == there.tolist()
-
-
-def test_without_a_position_sensor_a_feature_is_kept_or_lost() -> None:
-    space = space_of([ROOM])
-    blind = replace(SENSES, position=math.inf)
-    floor = edge_at(space, 0, 0)
-    corners = [vertex_at(space, *corner) for corner in CORNERS]
-    whole = Region(Area.empty(), contact(space, [(floor, 0, 8)], corners))
-    got = kernel_of(space, whole, blind)
-    assert stretch(space, got.contact, floor) == [pytest.approx([-4, 0, 4, 0])]
-    assert not len(got.contact.vertices)
-    for part in (contact(space, [(floor, 0, 7.9)], corners), contact(space, [(floor, 0, 8)])):
-        assert kernel_of(space, Region(Area.empty(), part), blind).is_empty
-    everything = kernel_of(space, space.valid, blind)
-    assert is_subset(space.valid, everything, space.tolerance)
-
-
-def test_two_rooms_are_confused_without_a_position_sensor() -> None:
-    rooms = shapely.difference(
-        shapely.box(-10, -10, 10, 10),
-        shapely.union_all([shapely.box(-8, 0, -2, 4), shapely.box(2, 0, 8, 4)]),
-    )
-    space = space_of([rooms])
-    left = goal(space, Area.box(-8, 0, -2, 4))
-    assert kernel_of(space, left, replace(SENSES, position=math.inf)).is_empty
-    near = kernel_of(space, left)
-    assert_same_area(near.area, shapely.box(-8, 0, -2, 4))
-
-
-# --- domains ----------------------------------------------------------------------------------
-
-
-def test_sticking_features_as_domain() -> None:
-    """Known to stick: the floor is only told from other floors, free space does not matter."""
-    steps = shapely.union_all([shapely.box(-8, -8, 0, 0), shapely.box(0, -8, 8, -3)])
-    space = space_of([steps])
-    high, low = edge_at(space, -4, 0), edge_at(space, 4, -3)
-    sticking = Region(Area.empty(), contact(space, [(high, 0, 8), (low, 0, 8)]))
-    target = Region(Area.empty(), contact(space, [(high, 0, 4)]))
-    numb = replace(SENSES, force_thresholds=(math.inf, math.inf))
-    assert kernel_of(space, target, numb).is_empty
-    got = kernel_of(space, target, numb, domain=sticking)
-    assert got.contact.low.tolist() == [0.0]
-    assert got.contact.high.tolist() == pytest.approx([3.0], abs=EXACT)
-    assert is_subset(sticking, kernel_of(space, sticking, numb, domain=sticking), space.tolerance)
-
-
-def test_what_cannot_be_reached_does_not_confuse() -> None:
-    space = space_of([])
-    target = goal(space, Area.box(-4, -3, 4, 3))
-    above = Region(Area.box(-4, -3, 4, 9), ContactSet.empty())
-    got = kernel_of(space, target, domain=above)
-    assert_same_area(got.area, shapely.box(-4, -3, 4, 2))
-    got = kernel_of(space, target, domain=Region(Area.box(1, -2, 3, 2), ContactSet.empty()))
-    assert_same_area(got.area, shapely.box(-4, -3, 4, 3))
-    got = kernel_of(space, target, domain=Region.empty())
-    assert is_subset(target, got, space.tolerance)
-
-
-def test_a_domain_of_contact_confuses_free_space_where_it_reads_0() -> None:
-    space = space_of([ROOM])
-    wall = edge_at(space, 4, 3)
-    domain = Region(Area.empty(), contact(space, [(wall, 0, 6)]))
-    got = kernel_of(space, Region(Area.box(-4, 0, 4, 6), ContactSet.empty()), domain=domain)
-    assert_same_area(got.area, shapely.box(-4, 0, 3, 6))
-
-
-def test_the_empty_target() -> None:
-    space = space_of([BLOCK])
-    for rho in (0.0, 0.5, math.inf):
-        assert kernel_of(space, Region.empty(), replace(SENSES, position=rho)).is_empty
-
-
-def test_all_of_valid_space_is_its_own_kernel() -> None:
-    space = space_of([BLOCK])
-    assert is_subset(space.valid, kernel_of(space, space.valid), space.tolerance)

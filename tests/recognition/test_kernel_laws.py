@@ -27,7 +27,7 @@ from tests.recognition.cases import (
 )
 
 SLACK = 1e-6
-SCENES = 60
+SCENES = 40
 
 
 def least_distance(case: Case, feature: int, places: np.ndarray) -> np.ndarray:
@@ -153,9 +153,11 @@ def test_kernels_shrink_with_less_sensing(change: str, seed: int) -> None:
     if math.isinf(case.senses.force_thresholds[0]):
         case.senses = replace(case.senses, force_thresholds=(0.1, 0.1))
     worse = replace(case, senses=LESS[change](case.senses))
-    assert is_subset(worse.kernel, case.kernel, case.space.tolerance)
+    # what is no longer than the tolerance is cut off or not
+    near = replace(case.space.tolerance, length=4 * case.space.tolerance.length)
+    assert is_subset(worse.kernel, case.kernel, near)
     exact = replace(case, senses=replace(case.senses, position=0.0))
-    assert is_subset(case.kernel, exact.kernel, case.space.tolerance)
+    assert is_subset(case.kernel, exact.kernel, near)
 
 
 @given(seeds)
@@ -257,3 +259,36 @@ def test_mirrored_scenes_have_mirrored_kernels(seed: int) -> None:
         direction=math.pi - case.direction,
     )
     assert_same(other.kernel, moved(case.kernel), space)
+
+
+@pytest.mark.parametrize("turn", [0.0, math.pi / 2, 0.7])
+@given(seeds)
+@settings(max_examples=SCENES // 2)
+def test_turned_and_moved_scenes_have_turned_and_moved_kernels(turn: float, seed: int) -> None:
+    case = random_case(seed)
+    cos, sin = (0.0, 1.0) if turn == math.pi / 2 else (math.cos(turn), math.sin(turn))
+
+    def placed(points: np.ndarray) -> np.ndarray:
+        return np.asarray(points @ np.array(((cos, sin), (-sin, cos))) + (3.0, -7.0))
+
+    def turned(area: Area) -> Area:
+        return Area(shapely.transform(area.geometry, placed))
+
+    def moved(region: Region) -> Region:
+        return Region(turned(region.area), region.contact)
+
+    old = case.space
+    contact = ContactSpace(placed(old.contact.points), old.contact.next, old.contact.open)
+    free, obstacles = turned(old.free), turned(old.obstacles)
+    other = replace(
+        case,
+        space=replace(old, contact=contact, free=free, obstacles=obstacles),
+        target=moved(case.target),
+        domain=None if case.domain is None else moved(case.domain),
+        direction=float(wrap(case.direction + turn)),
+    )
+    got, expected = other.kernel, moved(case.kernel)
+    # a disc that barely reaches an edge takes from it the root of what rounding does to it
+    for one, two in ((got, expected), (expected, got)):
+        assert contact_set.is_subset(one.contact, two.contact, 1e-4)
+        assert areas.is_subset(one.area, two.area, 1e-6)

@@ -271,8 +271,9 @@ def stadium_pieces(starts: Floats, ends: Floats, radius: float, normals: Floats)
         return _NONE
     along = ends - starts
     length = np.hypot(along[:, 0], along[:, 1])
-    long = length > np.finfo(float).tiny  # any direction will do for a point
-    along = np.where(long[:, None], along, (1.0, 0.0))
+    long = length > np.finfo(float).tiny
+    # a point has no tangents of its own: those that it gets are among the others
+    along = np.where(long[:, None], along, (-sin(normals[0]), cos(normals[0])))
     along /= np.where(long, length, 1.0)[:, None]
     right = np.stack((along[:, 1], -along[:, 0]), axis=1)
     # the normals from the right side of the segment around its end to the left side, and back

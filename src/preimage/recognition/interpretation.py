@@ -80,7 +80,7 @@ def contained(
     ----------
     rest : `outside(space, T, Delta)`.
     """
-    segments = contact_segments(space.contact, rest.contact, readings)
+    segments = contact_segments(space.contact, rest.contact)
     segments = segments.part(told.features[segments.feature])
     if np.isinf(told.radius):
         return not len(segments) and not (told.free and not rest.area.is_empty)
@@ -104,7 +104,7 @@ def _is_at(
     What ends at q, within the tolerance, is left to the target, which is closed.
     """
     q, margin = np.array([told.position]), space.tolerance.length
-    whole = contact_segments(space.contact, ContactSet.whole(space.contact), readings)
+    whole = contact_segments(space.contact, ContactSet.whole(space.contact))
     here = whole.feature[distances(np.repeat(q, len(whole), axis=0), whole) <= margin]
     if np.any(here >= readings.size):
         corners = here[here >= readings.size]
@@ -116,5 +116,5 @@ def _is_at(
         return bool(np.any(at & (off[0] > margin) & (off[1] > margin)))
     if not told.free or not rest.area.contains(*told.position):
         return False
-    edges = border_segments(*border(rest.area), readings)
+    edges = border_segments(space.contact, *border(rest.area))
     return bool(np.all(distances(np.repeat(q, len(edges), axis=0), edges) > margin))

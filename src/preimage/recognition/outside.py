@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,7 +15,6 @@ from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry import area as areas
 from preimage.geometry import inflate
 from preimage.geometry.area import Area
-from preimage.recognition.readings import Readings
 from preimage.recognition.segments import Box, Segments
 
 Domain = Region | None
@@ -47,22 +47,24 @@ class Outside:
         return self.area.is_empty and self.contact.is_empty
 
 
-def outside(
-    space: ConfigurationSpace, target: Region, domain: Domain = None, box: Box | None = None
-) -> Outside:
+@lru_cache(maxsize=16)
+def outside(space: ConfigurationSpace, target: Region, domain: Domain = None) -> Outside:
     """`Delta - T`: what of the domain lies outside the target.
 
-    Parameters
-    ----------
-    box : the area is wanted only here; everywhere by default.
+    One target is looked at with many commands: the answer is kept for the same objects.
     """
-    return Outside(area_outside(space, target, domain, box), contact_outside(space, target, domain))
+    return Outside(area_outside(space, target, domain), contact_outside(space, target, domain))
 
 
 def area_outside(
     space: ConfigurationSpace, target: Region, domain: Domain = None, box: Box | None = None
 ) -> Area:
-    """The part of free space in the domain that lies outside the target; regular, closed."""
+    """The part of free space in the domain that lies outside the target; regular, closed.
+
+    Parameters
+    ----------
+    box : the area is wanted only here; everywhere by default.
+    """
     area = space.free if domain is None else domain.area
     if box is not None and len(space.contact) > FEW_EDGES and not area.is_empty:
         area = areas.within_box(area, *box)
@@ -74,45 +76,21 @@ def area_outside(
 
 def contact_outside(space: ConfigurationSpace, target: Region, domain: Domain = None) -> ContactSet:
     """The part of contact space in the domain that lies outside the target, closed on each edge."""
-    if domain is None:
-        return _remainder(space.contact, target.contact, space.tolerance.length)
-    return contact_set.difference(domain.contact, target.contact, space.tolerance.length)
+    whole = ContactSet.whole(space.contact) if domain is None else domain.contact
+    return contact_set.difference(whole, target.contact, space.tolerance.length)
 
 
-def _remainder(contact: ContactSpace, part: ContactSet, tolerance: float) -> ContactSet:
-    """All of contact space that is not in the part: the gaps between its intervals."""
-    edge, low, high = part.edge, part.low, part.high
-    first = np.ones(len(edge), dtype=np.bool_)
-    first[1:] = edge[1:] != edge[:-1]
-    start = np.where(first, 0.0, np.concatenate(((0.0,), high))[: len(edge)])
-    last = np.concatenate((first[1:], (True,)))[: len(edge)]
-    whole = ~contact.open
-    whole[edge] = False
-    untouched = np.flatnonzero(whole).astype(np.int32)
-    all_edges = np.concatenate((untouched, edge, edge[last]))
-    all_low = np.concatenate((np.zeros(len(untouched)), start, high[last]))
-    all_high = np.concatenate((contact.length[untouched], low, contact.length[edge[last]]))
-    kept = all_high - all_low > tolerance
-    all_edges, all_low, all_high = all_edges[kept], all_low[kept], all_high[kept]
-    order = np.lexsort((all_low, all_edges))
-    outer = np.zeros(len(contact), dtype=np.bool_)
-    outer[contact.vertices] = True
-    outer[part.vertices] = False
-    vertices = np.flatnonzero(outer).astype(np.int32)
-    return ContactSet(all_edges[order], all_low[order], all_high[order], vertices)
-
-
-def contact_segments(contact: ContactSpace, part: ContactSet, readings: Readings) -> Segments:
+def contact_segments(contact: ContactSpace, part: ContactSet) -> Segments:
     """The intervals, as segments, and the vertices, as points."""
     corners = contact.points[part.vertices]
     return Segments(
         np.concatenate((contact.at(part.edge, part.low), corners)),
         np.concatenate((contact.at(part.edge, part.high), corners)),
-        np.concatenate((part.edge, readings.size + part.vertices)),
+        np.concatenate((part.edge, len(contact) + part.vertices)),
     )
 
 
-def border_segments(points: Floats, following: Ints, readings: Readings) -> Segments:
+def border_segments(contact: ContactSpace, points: Floats, following: Ints) -> Segments:
     """The border of a part of free space, which stands for it as long as nothing is inside it."""
-    feature = np.full(len(points), readings.free, dtype=np.int32)
+    feature = np.full(len(points), 2 * len(contact), dtype=np.int32)
     return Segments(points, points[following], feature)

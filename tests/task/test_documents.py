@@ -202,6 +202,13 @@ HOSTILE = {
 }
 
 
+bounds_memory = pytest.mark.skipif(
+    "libasan" in os.environ.get("LD_PRELOAD", ""),
+    reason="the address sanitizer reserves more addresses than the bound",
+)
+
+
+@bounds_memory
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_files_are_refused_soon(name: str, tmp_path: Path) -> None:
     """With a bound on memory, in a process of its own."""
@@ -230,6 +237,7 @@ def test_hostile_files_are_refused_soon(name: str, tmp_path: Path) -> None:
     assert time.monotonic() - began < 60
 
 
+@bounds_memory
 @pytest.mark.parametrize("kind", Format)
 def test_a_hall_of_a_hundred_thousand_vertices_is_read(kind: Format, tmp_path: Path) -> None:
     path = tmp_path / f"hall{kind.value[0]}"

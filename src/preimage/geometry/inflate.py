@@ -119,7 +119,7 @@ def shrunk_by(area: Area, *pieces: Pieces) -> Area:
     """The area without the interiors of the pieces; those that miss it cost little.
 
     Overlays in floating arithmetic may fail, or lose polygons, where borders nearly coincide. So
-    the middle of every piece is looked for in the answer; if one is there, all is done again on a
+    points of every piece are looked for in the answer; if one is there, all is done again on a
     grid, which is slower.
     """
     together = np.concatenate(pieces) if pieces else _NONE
@@ -141,12 +141,18 @@ def shrunk_by(area: Area, *pieces: Pieces) -> Area:
 
 
 def _survives(pieces: Pieces, rest: Area) -> bool:
-    """Whether the middle of some piece is still inside what the pieces were taken from."""
+    """Whether something of a convex piece is still there: its middle, or near a corner."""
     if rest.is_empty:
         return False
     shapely.prepare(rest.geometry)
-    middle = shapely.centroid(pieces)
-    return bool(np.any(shapely.contains_properly(rest.geometry, middle)))
+    corners, piece = shapely.get_coordinates(pieces, return_index=True)
+    middle = shapely.get_coordinates(shapely.centroid(pieces))
+    spokes = corners - middle[piece]
+    for part in (0.5, 0.98):
+        x, y = (middle[piece] + part * spokes).T
+        if np.any(shapely.contains_xy(rest.geometry, x, y)):
+            return True
+    return bool(np.any(shapely.contains_xy(rest.geometry, *middle.T)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from random import Random
 from typing import NamedTuple
 
@@ -15,27 +14,12 @@ from shapely.geometry.base import BaseGeometry
 
 from preimage.configuration.boundary import contact_space
 from preimage.configuration.contact_set import ContactSet
-from preimage.configuration.obstacles import configuration_space
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
-from preimage.errors import TaskError
 from preimage.geometry import area as areas
 from preimage.geometry.area import Area
 from preimage.geometry.tolerance import Tolerance
-from preimage.preimages.setting import Setting
-from preimage.task.initial import Initial
-from preimage.task.options import Method, PlannerOptions, SearchOrder, uniform_directions
-from preimage.task.robot import Robot
-from preimage.task.task import (
-    Everywhere,
-    Goal,
-    InitialPoint,
-    InitialPolygon,
-    SlidingLaw,
-    Task,
-)
-from preimage.task.uncertainty import Uncertainty
-from preimage.task.workspace import PolygonObstacle, Side, Window, Workspace
+from preimage.task.workspace import Side
 
 HALF = 6
 """Half the width of the window in which scenes are made; lattice points are integers."""
@@ -313,156 +297,3 @@ def _patch(rng: Random, lattice: bool, about: Sequence[float] | None) -> Area:
         return Area.box(x - low * wide, y - low * high, x + wide, y + high)
     corners = np.array([(x - wide, y), (x + wide, y), (x, y + high * rng.choice((-1.0, 1.0)))])
     return Area.polygon(corners)
-
-
-# --- sensors and whole tasks ------------------------------------------------------------------
-
-POSITIONS = (0.0, 0.01, 0.05, 0.1, 0.3, 0.5, 1.0, math.inf)
-FORCE_ANGLES = tuple(math.radians(angle) for angle in (0, 0, 5, 10, 30, 90, 179))
-THRESHOLDS = (
-    (0.0, 0.0), (0.05, 0.05), (0.05, 0.05), (0.3, 0.3), (0.1, 0.5), (0.0, 1.0), (1.0, 1.0),
-    (math.inf, math.inf),
-)  # fmt: skip
-
-
-def random_senses(rng: Random, control: float) -> Uncertainty:
-    """Any sensors: exact, coarse, with one threshold or two, or none at all."""
-    position, turn = rng.choice(POSITIONS), rng.choice(FORCE_ANGLES)
-    thresholds = rng.choice(THRESHOLDS)
-    return Uncertainty(control, position, turn if math.isfinite(thresholds[0]) else 0.0, thresholds)
-
-
-def random_setting(rng: Random) -> tuple[Setting, Scene]:
-    """A scene, and all bounds on errors."""
-    scene = random_scene(rng)
-    senses = random_senses(rng, scene.control)
-    return Setting(scene.space, senses, scene.friction, rng.choice(list(SlidingLaw)), 0.005), scene
-
-
-def random_task(rng: Random) -> Task:
-    """A small task that a plan may exist for: the goal is in contact, or about a contact edge."""
-    while True:
-        lattice = rng.random() < 0.6
-        shapes = [rng.choice(SHAPES)(rng, lattice) for _ in range(rng.randint(1, 5))]
-        obstacles = [
-            PolygonObstacle(_ring(part.exterior), tuple(_ring(hole) for hole in part.interiors))
-            for shape in shapes
-            for part in shapely.get_parts(shape)
-        ]
-        robot = Robot()
-        if rng.random() < 0.3:
-            robot = Robot(rng.choice(ROBOTS))
-        workspace = Workspace(
-            Window(-HALF, -HALF, HALF, HALF),
-            frozenset(side for side in Side if rng.random() < 0.4),
-            tuple(obstacles),
-        )
-        control, friction = rng.choice(CONTROLS[:4]), rng.choice(FRICTIONS)
-        senses = random_senses(rng, control)
-        if rng.random() < 0.6:
-            senses = Uncertainty(
-                control, rng.choice((0.02, 0.1)), math.radians(rng.choice((2, 10))), (0.05, 0.05)
-            )
-        elif rng.random() < 0.2:
-            control, friction = rng.choice(CONTROLS), 0.5 * math.pi
-        task = Task(
-            workspace=workspace,
-            robot=robot,
-            uncertainty=senses,
-            friction=friction,
-            sliding=rng.choice(list(SlidingLaw)),
-            initial=Everywhere(),
-            goal=Goal(points=((0.0, 0.0),)),
-            options=PlannerOptions(
-                directions=uniform_directions(rng.choice((2, 4, 4, 8))),
-                method=rng.choice(list(Method)),
-                max_steps=4,
-                search=rng.choice(list(SearchOrder)),
-                max_regions=60,
-            ),
-        )
-        try:
-            space = configuration_space(task)
-        except TaskError:
-            continue
-        if not len(space.contact.edges) or space.contact.length.min() < 1e-3:
-            continue
-        return replace(task, goal=_goal(rng, space, lattice), initial=_initial(rng, space, lattice))
-
-
-ROBOTS = (
-    ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)),
-    ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)),
-    ((-0.5, 0.0), (0.5, 0.0), (0.5, 1.0), (0.25, 1.0), (0.25, 0.25), (-0.5, 0.25)),
-)
-
-
-def _ring(ring: BaseGeometry) -> tuple[tuple[float, float], ...]:
-    points = shapely.get_coordinates(ring)[:-1].tolist()
-    return tuple((x, y) for x, y in points)
-
-
-def _goal(rng: Random, space: ConfigurationSpace, lattice: bool) -> Goal:
-    contact = space.contact
-    edge = int(rng.choice(contact.edges.tolist()))
-    ends = contact.points[edge], contact.ends[edge]
-    kind = rng.choice(("edge", "edge", "part", "point", "polygon", "two"))
-    if kind == "part":
-        cuts = sorted((_share(rng, lattice), _share(rng, lattice)))
-        if cuts[1] - cuts[0] > 0.1:
-            ends = tuple(ends[0] + cut * (ends[1] - ends[0]) for cut in cuts)
-    first = tuple(tuple(end.tolist()) for end in ends)
-    if kind == "point":
-        vertex = int(rng.choice(contact.vertices.tolist()))
-        return Goal(points=(tuple(contact.points[vertex].tolist()),))
-    if kind == "polygon":
-        x, y = (0.5 * (ends[0] + ends[1])).tolist()
-        half = rng.choice((1.0, 2.0, 3.0))
-        square = (
-            (x - half, y - half),
-            (x + half, y - half),
-            (x + half, y + half),
-            (x - half, y + half),
-        )
-        return Goal(polygons=(square,))
-    if kind == "two":
-        other = int(rng.choice(contact.edges.tolist()))
-        second = (tuple(contact.points[other].tolist()), tuple(contact.ends[other].tolist()))
-        return Goal(edges=(first, second))
-    return Goal(edges=(first,))
-
-
-def _initial(rng: Random, space: ConfigurationSpace, lattice: bool) -> Initial:
-    contact = space.contact
-    kind = rng.choice(("free", "free", "free", "edge", "vertex", "area", "everywhere"))
-    if kind == "everywhere":
-        return Everywhere()
-    edge = int(rng.choice(contact.edges.tolist()))
-    if kind == "edge":
-        place = 0.5 * (contact.points[edge] + contact.ends[edge])
-        return InitialPoint(tuple(place.tolist()))
-    if kind == "vertex":
-        corners = contact.vertices[
-            ~(contact.open | contact.open[contact.previous])[contact.vertices]
-        ]
-        if len(corners):
-            return InitialPoint(tuple(contact.points[int(rng.choice(corners.tolist()))].tolist()))
-    for _ in range(100):
-        x, y = _point(rng, lattice and rng.random() < 0.5, HALF - 0.5)
-        if (
-            space.free.contains(x, y)
-            and space.free.geometry.boundary.distance(shapely.Point(x, y)) > 0.01
-        ):
-            break
-    else:
-        return Everywhere()
-    if kind == "area":
-        half = rng.choice((0.1, 0.5))
-        square = (
-            (x - half, y - half),
-            (x + half, y - half),
-            (x + half, y + half),
-            (x - half, y + half),
-        )
-        return InitialPolygon(square)
-    return InitialPoint((x, y))

@@ -90,6 +90,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except RefusalError as refusal:
         note(f"preimage: {refusal}")
         return REFUSED
+    except click.exceptions.NoArgsIsHelpError as error:
+        note(error.format_message())
+        return REFUSED
     except click.ClickException as error:
         note(f"preimage: {_usage(error)}")
         return REFUSED
@@ -99,8 +102,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         note("preimage: there is not enough memory")
         return FAILED
-    except SystemExit as end:  # click, to whom nobody listens
-        return end.code if isinstance(end.code, int) else UNSOLVED
+    except SystemExit:  # click has printed, and nobody listened
+        return SOLVED
     except Exception:
         note(f"{traceback.format_exc()}preimage: this is a defect of the program")
         return FAILED

@@ -87,7 +87,11 @@ def check_outputs(inputs: list[str | None], **outputs: str | None) -> None:
     inputs : files that are read, and must not be overwritten.
     outputs : by option: `output` may be standard output, `figure` must be a picture.
     """
-    taken = {os.path.realpath(path): "the input" for path in inputs if path not in (None, STANDARD)}
+    taken = {
+        os.path.realpath(path): "the input itself"
+        for path in inputs
+        if path not in (None, STANDARD)
+    }
     for option, path in outputs.items():
         if path is None:
             continue
@@ -98,8 +102,8 @@ def check_outputs(inputs: list[str | None], **outputs: str | None) -> None:
         _check_writable(path)
         place = os.path.realpath(path)
         if place in taken and not _is_special(Path(place)):
-            raise RefusalError(f"{path}: is {taken[place]} already")
-        taken[place] = f"the --{option}"
+            raise RefusalError(f"{path}: is {taken[place]}")
+        taken[place] = f"the file of --{option} too"
 
 
 def _check_figure(path: str) -> None:

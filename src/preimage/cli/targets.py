@@ -97,6 +97,6 @@ def _points(kind: str, text: str) -> tuple[tuple[float, float], ...]:
     points = tuple(zip(numbers[::2], numbers[1::2], strict=False))
     least, most = {"edge": (2, 2), "polygon": (3, len(points)), "point": (1, 1)}[kind]
     if len(numbers) % 2 or not least <= len(points) <= max(least, most):
-        rule = f"{least} points or more" if kind == "polygon" else f"{2 * least} numbers"
-        raise RefusalError(f"{OPTION}: {kind} must have {rule}, not {len(numbers)} numbers")
+        rule = f"{2 * least} numbers{' or more, two a point' if kind == 'polygon' else ''}"
+        raise RefusalError(f"{OPTION}: {kind} must have {rule}, not {len(numbers)}")
     return points

@@ -37,8 +37,8 @@ from preimage.task.task import (
     InitialPolygon,
 )
 
-MOST = 12
-"""Regions that are listed of a strategy that was not found."""
+MOST = 6
+"""So many of the preimages that were found, the largest ones, are listed without a strategy."""
 
 
 def describe(strategy: Strategy) -> str:
@@ -118,9 +118,12 @@ def _headline(strategy: Strategy) -> Iterator[str]:
         result = f"stopped: {strategy.reason}" if strategy.reason else "stopped"
     yield f"{task.name}: {result}"
     directions = options.directions
-    many = "all" if isinstance(directions, Continuous) else str(len(directions))
+    if isinstance(directions, Continuous):
+        many = "all directions"
+    else:
+        many = count(len(directions), "direction")
     yield (
-        f"  {options.method.value} method, {strategy.kind.value} strategy, {many} directions,"
+        f"  {options.method.value} method, {strategy.kind.value} strategy, {many},"
         f" at most {count(options.max_steps, 'motion')}"
     )
     yield f"  start: {start_words(task.initial)}"
@@ -171,14 +174,20 @@ def _what_was_found(strategy: Strategy) -> Iterator[str]:
         yield "no motion is known to end in the goal"
         return
     yield f"{count(len(preimages), 'preimage')} found, and the start is in none of them"
-    for region in preimages[:MOST]:
+    for region in sorted(preimages, key=_size)[:MOST]:
         assert region.motion is not None
         yield (
             f"  region {region.id}: {count(region.rank, 'motion')} from the goal, first"
             f" {direction_words(region.motion.direction)}; {region_words(region.region)}"
         )
     if len(preimages) > MOST:
-        yield f"  and {len(preimages) - MOST} more"
+        yield f"  and {len(preimages) - MOST} smaller ones"
+
+
+def _size(region: StrategyRegion) -> tuple[float, float, int]:
+    """Sorts by area, then by contact, the largest first."""
+    inside = region.region
+    return -inside.area.measure, -inside.contact.total_length, region.id
 
 
 def _totals(strategy: Strategy) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,8 @@ def region_to_geojson(region: Region, space: ConfigurationSpace) -> dict[str, An
 
 def _vertex_points(vertices: Ints, space: ConfigurationSpace) -> Floats:
     """(k, 2) what stands for vertices: each place once, if all of its vertices are among them."""
+    if not len(vertices):
+        return np.empty((0, 2))
     place = space.contact.place
     places, counts = np.unique(place[vertices], return_counts=True)
     wedges = _wedges_at(space.contact, places)
@@ -55,8 +58,6 @@ def _vertex_points(vertices: Ints, space: ConfigurationSpace) -> Floats:
 
 def _wedges_at(contact: ContactSpace, places: Ints) -> Ints:
     """(k, r) the contact vertices at places, each after the other, filled up with -1."""
-    if not len(places):
-        return np.empty((0, 1), dtype=np.int32)
     wedges = contact.wedges[places]
     return np.where(np.isin(wedges, contact.vertices), wedges, -1)
 
@@ -179,13 +180,9 @@ def _settled(contact: ContactSpace, edge: Ints, along: Floats, points: Floats) -
     least = np.max(np.min(ends, axis=0), axis=1)
     most = np.min(np.max(ends, axis=0), axis=1)
     middle = np.clip(0.5 * (least + most), 0.0, length)
-    candidates = [along, middle, np.zeros_like(length), length]
-    for base in (least, middle, most):
-        step = np.spacing(base)
-        candidates += [base + count * step for count in range(-_STEPS, _STEPS + 1)]
     result = along
     settled: Bools = np.zeros(len(edge), dtype=np.bool_)
-    for candidate in candidates:
+    for candidate in _candidates(along, middle, least, most, length):
         inside = np.clip(candidate, 0.0, length)
         same = np.all(contact.at(edge, inside) == points, axis=1) & ~settled
         result = np.where(same, inside, result)
@@ -195,8 +192,22 @@ def _settled(contact: ContactSpace, edge: Ints, along: Floats, points: Floats) -
     return result
 
 
+def _candidates(
+    along: Floats, middle: Floats, least: Floats, most: Floats, length: Floats
+) -> Iterator[Floats]:
+    """Distances worth a try: what was measured, the ends of the edge, and the neighbours."""
+    yield from (along, middle, np.zeros_like(length), length)
+    for base in (middle, least, most):
+        step = np.spacing(base)
+        for count in range(1, _STEPS + 1):
+            yield base + count * step
+            yield base - count * step
+
+
 def _vertices_of(points: Floats, space: ConfigurationSpace, key: str) -> Ints:
     """The contact vertices at points: at a pinch all of them, or the one that is meant."""
+    if not len(points):
+        return np.empty(0, dtype=np.int32)
     near, contact = space.tolerance.length, space.contact
     point, vertex, apart = _near_vertices(points, contact, near)
     for missing in np.setdiff1d(np.arange(len(points)), point):
@@ -214,9 +225,9 @@ def _vertices_of(points: Floats, space: ConfigurationSpace, key: str) -> Ints:
 def _near_vertices(points: Floats, contact: ContactSpace, near: float) -> tuple[Ints, Ints, Floats]:
     """Pairs of a point and a contact vertex near it, sorted by point; how far they are apart."""
     point, edge = contact.index.near_points(points, near)[:2]
-    vertex = np.concatenate((edge, contact.next[edge]))
-    pairs = np.unique(np.stack((np.concatenate((point, point)), vertex), axis=1), axis=0)
-    point, vertex = pairs[:, 0], pairs[:, 1]
+    both = np.concatenate((edge, contact.next[edge])).astype(np.int64)
+    pairs = np.unique(np.concatenate((point, point)).astype(np.int64) * len(contact) + both)
+    point, vertex = (part.astype(np.int32) for part in np.divmod(pairs, len(contact)))
     gap = contact.points[vertex] - points[point]
     apart = np.hypot(gap[:, 0], gap[:, 1])
     on = (apart <= near) & np.isin(vertex, contact.vertices)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import os
-import stat
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TextIO
+
+from preimage.whole_file import is_special, write_whole
 
 STANDARD = "-"
 """The path that stands for standard input and standard output."""
@@ -101,7 +102,7 @@ def check_outputs(inputs: list[str | None], **outputs: str | None) -> None:
             continue
         _check_writable(path)
         place = os.path.realpath(path)
-        if place in taken and not _is_special(Path(place)):
+        if place in taken and not is_special(Path(place)):
             raise RefusalError(f"{path}: is {taken[place]}")
         taken[place] = f"the file of --{option} too"
 
@@ -124,7 +125,7 @@ def _check_writable(path: str) -> None:
     try:
         if not path or place.is_dir():
             raise RefusalError(f"{path or repr('')}: is a directory, not a file")
-        if _is_special(place):
+        if is_special(place):
             if not os.access(place, os.W_OK):
                 raise RefusalError(f"{path}: cannot be written: permission denied")
             return
@@ -134,21 +135,11 @@ def _check_writable(path: str) -> None:
         raise RefusalError(f"{path}: cannot be written: {reason(error)}") from None
 
 
-def _is_special(path: Path) -> bool:
-    """Whether it is there and no regular file: a pipe, a terminal, the null device."""
-    try:
-        mode = path.stat().st_mode
-    except FileNotFoundError:
-        return False
-    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
-
-
 def write(path: str, text: str) -> None:
     """Write a text to a file, or to standard output."""
     if path == STANDARD:
         say(text.removesuffix("\n"))
         return
-    from preimage.strategy.whole_file import write_whole
 
     try:
         write_whole(path, text)

@@ -92,6 +92,8 @@ def _check_covered(
     if not len(gaps):
         return
     edges = contact.edges
+    if not len(edges):
+        raise TaskError(key, "does not lie in contact space, of which there is none")
     worst, where = -1.0, start
     for gap in gaps.tolist():
         for part in (0.0, 0.5, 1.0):

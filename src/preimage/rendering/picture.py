@@ -7,12 +7,13 @@ import os
 import threading
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from preimage.errors import InputError, UnsupportedError, shown
+from preimage.whole_file import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -108,7 +109,7 @@ def draw(
     with _settings():
         made = _figure(subject, task, space, direction, options)
         content = _rendered(made, kind, options.get("dpi"))
-    _write(Path(path), content)
+    write_whole(Path(path), content)
 
 
 def svg(
@@ -197,19 +198,3 @@ def _rendered(made: Figure, kind: Format, dpi: int | None) -> bytes:
     resolution = PictureOptions().dpi if dpi is None else dpi
     made.savefig(stream, format=kind.value, dpi=resolution, metadata=metadata[kind] | title)
     return stream.getvalue()
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Write a file whole, by way of a neighbour; what is no regular file, a pipe say, directly."""
-    if path.exists() and not path.is_file():
-        path.write_bytes(content)
-        return
-    path = path.resolve()
-    neighbour = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}.tmp")
-    try:
-        neighbour.write_bytes(content)
-        os.replace(neighbour, path)
-    except BaseException:
-        with suppress(OSError):
-            neighbour.unlink()
-        raise

@@ -18,10 +18,10 @@ from preimage.recognition.termination import (
 from preimage.strategy.plan_parse import VERSION, parse_plan
 from preimage.strategy.region_geojson import region_to_geojson
 from preimage.strategy.strategy import Strategy, StrategyRegion
-from preimage.strategy.whole_file import write_whole
 from preimage.task.degrees import representable, to_degrees
 from preimage.task.documents import read_document
 from preimage.task.files import dump_task
+from preimage.whole_file import write_whole
 
 Data = dict[str, Any]
 

@@ -27,6 +27,7 @@ from preimage.task.robot import Robot
 from preimage.task.task import Task
 from preimage.task.uncertainty import Uncertainty
 from preimage.task.workspace import ChainObstacle, Obstacle, Side
+from preimage.whole_file import write_whole
 
 _WHOLE = 2.0**53
 """Doubles below this that are whole are written as whole numbers."""
@@ -53,7 +54,7 @@ def save_task(task: Task, path: str | os.PathLike[str]) -> None:
     """
     text = format_task(task, Format.of(path))
     try:
-        Path(path).write_text(text, encoding="utf-8", newline="\n")
+        write_whole(path, text)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise TaskError(str(path), f"cannot be written: {reason}") from None

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from preimage.strategy.whole_file import write_whole, written_whole
+from preimage.whole_file import write_whole, written_whole
 
 
 def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:

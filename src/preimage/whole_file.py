@@ -37,7 +37,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     ['plan.json']
     """
     final = Path(os.path.realpath(path))  # a link stays one
-    if _is_special(final):
+    if is_special(final):
         yield final
         return
     handle, name = tempfile.mkstemp(final.suffix, f".{final.stem[:100]}-", final.parent)
@@ -52,7 +52,8 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         raise
 
 
-def _is_special(path: Path) -> bool:
+def is_special(path: Path) -> bool:
+    """Whether it is there and no regular file: a pipe, a terminal, the null device."""
     try:
         mode = path.stat().st_mode
     except FileNotFoundError:

@@ -205,7 +205,7 @@ def test_what_floating_overlays_lose_is_found(fault: str, monkeypatch: pytest.Mo
     area = Area.box(0, 0, 30, 10)
     starts = np.stack((np.arange(2.0, 30.0, 5.0), np.full(6, 4.0)), axis=1)
     pieces = inflate.stadium_pieces(
-        starts, starts + (1.0, 2.0), 1.0, inflate.tangent_normals(0.005, ())
+        starts, np.add(starts, (1.0, 2.0)), 1.0, inflate.tangent_normals(0.005, ())
     )
     right = inflate.shrunk_by(area, pieces)
     sound = shapely.union_all

@@ -4,7 +4,15 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from preimage.task import Format, dump_task, named_task, named_tasks, task_families, task_schema
+from preimage.task import (
+    Format,
+    dump_task,
+    named_task,
+    named_tasks,
+    parse_task,
+    task_families,
+    task_schema,
+)
 from preimage.task.documents import parse_document
 from preimage.task.examples import named_task_text
 
@@ -38,5 +46,12 @@ def test_defaults_are_the_parsers() -> None:
     for word in ("walls", "robot", "sliding"):
         assert schema[word]["default"] == task[word]
     given = {"directions": 4}
+    ours = {"search", "time_limit", "max_regions", "arc_tolerance"}  # not in the contract
     for word, option in schema["planner"]["properties"].items():
-        assert task["planner"][word] == given.get(word, option["default"])
+        if word in ours:
+            assert word not in task["planner"]
+            document = dump_task(named_task("flat-floor"))
+            document["planner"][word] = option["default"]
+            assert parse_task(document) == named_task("flat-floor")
+        else:
+            assert task["planner"][word] == given.get(word, option["default"])

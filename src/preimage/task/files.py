@@ -154,18 +154,26 @@ def _initial(initial: Initial) -> object:
 
 
 def _options(options: PlannerOptions) -> dict[str, object]:
+    """The options; of those that only this planner has, what differs from the default.
+
+    Other programs that read version 1 may refuse keys that they do not know.
+    """
     limit = options.time_limit
+    ours: dict[str, object] = {
+        "search": options.search.value,
+        "time_limit": NONE if limit is None else _number(limit),
+        "max_regions": options.max_regions,
+        "arc_tolerance": _number(options.arc_tolerance),
+    }
+    default = PlannerOptions()
+    changed = {key for key in ours if getattr(options, key) != getattr(default, key)}
     return {
         "directions": _directions(options),
         "method": options.method.value,
         "strategy": options.strategy.value,
         "termination": options.termination.value,
         "max_steps": options.max_steps,
-        "search": options.search.value,
-        "time_limit": NONE if limit is None else _number(limit),
-        "max_regions": options.max_regions,
-        "arc_tolerance": _number(options.arc_tolerance),
-    }
+    } | {key: value for key, value in ours.items() if key in changed}
 
 
 def _directions(options: PlannerOptions) -> object:

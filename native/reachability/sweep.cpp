@@ -507,20 +507,33 @@ private:
         stretches_.push_back({edge.base, std::min(from, to), std::max(from, to)});
     }
 
-    // The stretches in the order of a ContactSet, those that touch made one.
+    // The stretches in the order of a ContactSet, those that touch made one. What is avoidable
+    // between two of them, however short, grows to more than the tolerance.
     void write_contact() {
         std::sort(stretches_.begin(), stretches_.end(), [](const Stretch& a, const Stretch& b) {
             return a.edge != b.edge ? a.edge < b.edge : a.low < b.low;
         });
-        for (const Stretch& stretch : stretches_) {
-            if (!result_.edge.empty() && result_.edge.back() == stretch.edge &&
-                stretch.low - result_.high.back() <= tolerance_) {
-                result_.high.back() = std::max(result_.high.back(), stretch.high);
-            } else if (stretch.high - stretch.low > tolerance_) {
-                result_.edge.push_back(stretch.edge);
-                result_.low.push_back(stretch.low);
-                result_.high.push_back(stretch.high);
+        std::size_t kept = 0;
+        for (Stretch stretch : stretches_) {
+            if (kept > 0 && stretches_[kept - 1].edge == stretch.edge) {
+                Stretch& last = stretches_[kept - 1];
+                if (stretch.low <= last.high) {
+                    last.high = std::max(last.high, stretch.high);
+                    continue;
+                }
+                if (stretch.low - last.high <= tolerance_) {
+                    last.high -= tolerance_;
+                    stretch.low += tolerance_;
+                }
             }
+            stretches_[kept++] = stretch;
+        }
+        stretches_.resize(kept);
+        for (const Stretch& stretch : stretches_) {
+            if (stretch.high - stretch.low <= tolerance_) continue;
+            result_.edge.push_back(stretch.edge);
+            result_.low.push_back(stretch.low);
+            result_.high.push_back(stretch.high);
         }
     }
 

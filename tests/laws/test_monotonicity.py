@@ -42,7 +42,7 @@ def kernel_of(setting: Setting, target: Region, direction: float) -> Region:
 
 
 def arcs(setting: Setting) -> float:
-    """How far arcs may be off: their tangents turn with the cone."""
+    """How far arcs may be off: their tangents turn with the cone, and come and go with corners."""
     rho = setting.uncertainty.position
     return SLACK + (2.0 * rho * setting.arc_tolerance if math.isfinite(rho) else 0.0)
 
@@ -67,7 +67,7 @@ def kernels(setting: Setting, scene: Scene, more: Region, rng: Random) -> Iterat
 
     senses, found = setting.uncertainty, core(setting)
     yield "a kernel lies in its target", found, scene.target, SLACK
-    yield "kernels grow with the target", found, core(setting, more), SLACK
+    yield "kernels grow with the target", found, core(setting, more), arcs(setting)
     worse: dict[str, Setting] = {}
     theta = senses.control + rng.uniform(0.0, 1.0) * (1.5 - senses.control)
     worse["theta"] = changed(setting, control=theta)
@@ -97,7 +97,7 @@ def preimages(setting: Setting, scene: Scene, more: Region, rng: Random) -> Iter
 
         made = found(setting)
         yield f"combined contains {method.value}", made, combined, SLACK
-        yield f"{method.value} grows with the goal", made, found(setting, more), SLACK
+        yield f"{method.value} grows with the goal", made, found(setting, more), 2.0 * arcs(setting)
         if math.isfinite(senses.position):
             other = changed(setting, position=2.0 * senses.position + 0.01)
             yield f"{method.value} shrinks with rho", found(other), made, SLACK

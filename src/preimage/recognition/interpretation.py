@@ -74,7 +74,8 @@ def contained(
     """The termination condition `K_v(q, f) & Delta <= T`, as `K_v(q, f)` misses `Delta - T`.
 
     True for every reading that a configuration of the kernel can give: the kernel is further than
-    twice rho from all of `rest` that is alike.
+    twice rho from all of `rest` that is alike, by a whole tolerance. Half of that is kept here, so
+    that rounding of what is outside the target does not end a motion too early.
 
     Parameters
     ----------
@@ -87,9 +88,10 @@ def contained(
     if told.radius == 0.0:
         return not _is_at(space, readings, told, rest, segments)
     q = np.array([told.position])
-    if np.any(distances(np.repeat(q, len(segments), axis=0), segments) < told.radius):
+    reach = told.radius + 0.5 * space.tolerance.length
+    if np.any(distances(np.repeat(q, len(segments), axis=0), segments) < reach):
         return False
-    return not told.free or rest.area.distance(*told.position) >= told.radius
+    return not told.free or rest.area.distance(*told.position) >= reach
 
 
 def _is_at(
@@ -116,5 +118,9 @@ def _is_at(
         return bool(np.any(at & (off[0] > margin) & (off[1] > margin)))
     if not told.free or not rest.area.contains(*told.position):
         return False
+    sides = np.flatnonzero(space.contact.open).astype(np.int32)
+    exits = Segments(space.contact.points[sides], space.contact.ends[sides], sides)
+    if np.any(distances(np.repeat(q, len(exits), axis=0), exits) <= margin):
+        return True  # who is on an open side has escaped
     edges = border_segments(space.contact, *border(rest.area))
     return bool(np.all(distances(np.repeat(q, len(edges), axis=0), edges) > margin))

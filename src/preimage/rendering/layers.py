@@ -147,7 +147,8 @@ def _draw_area(
 def _draw_intervals(
     panel: Panel, layer: Layer, contact: ContactSet, style: RegionStyle, number: int | None
 ) -> None:
-    lines = panel.lanes.lines(contact, style.contact, panel.unit)
+    window = np.array(panel.space.window).reshape(2, 2)
+    lines = np.clip(panel.lanes.lines(contact, style.contact, panel.unit), *window)
     draw_lines(
         panel, layer, lines, "contact", style.color, style.contact, style.contact_dashes,
         style.order + 1.0, number, PAPER if style.contact_dashes[1] else None,

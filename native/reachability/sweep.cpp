@@ -15,6 +15,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int32_t none = -1;
 
+// With perfect control a single point takes a line from what is above it, which no area can tell.
+// It takes a wedge at least so slim instead, wide enough for kernels to keep away from.
+constexpr double least_tip_spread = 1e-7;
+
 // A vertex of contact space where the sweep stands, or a place inside an edge where the target
 // begins or ends on it.
 struct Corner {
@@ -36,6 +40,7 @@ public:
     Sweep(Arrangement& arrangement, double spread, double tolerance)
         : world_(arrangement),
           spread_(spread),
+          tip_spread_(std::max(spread, least_tip_spread)),
           tolerance_(tolerance),
           status_(tolerance),
           node_of_(arrangement.edges.size(), none) {
@@ -294,11 +299,11 @@ private:
         } else if (from_corner && std::max(low, -spread_) < std::min(high, spread_)) {
             if (low < -spread_) {
                 set_right(Piece::Good);
-                cast(Kind::RayLeft, p, Piece::Avoidable);
+                cast(Kind::RayLeft, p, Piece::Avoidable, tip_spread_);
             } else {
                 set_right(Piece::Avoidable);
             }
-            if (spread_ < high) cast(Kind::RayRight, p, Piece::Good);
+            if (spread_ < high) cast(Kind::RayRight, p, Piece::Good, tip_spread_);
         } else {
             set_right(Piece::Good);
         }
@@ -306,10 +311,12 @@ private:
 
     void set_right(Piece piece) { (fresh_.empty() ? leftmost_ : fresh_.back().right) = piece; }
 
-    void cast(Kind kind, std::int32_t p, Piece right) {
+    void cast(Kind kind, std::int32_t p, Piece right) { cast(kind, p, right, spread_); }
+
+    void cast(Kind kind, std::int32_t p, Piece right, double spread) {
         Boundary ray{};
         ray.origin = world_.points[p];
-        ray.direction = {kind == Kind::RayRight ? spread_ : -spread_, 1.0};
+        ray.direction = {kind == Kind::RayRight ? spread : -spread, 1.0};
         ray.kind = kind;
         ray.right = right;
         ray.edge = none;
@@ -619,6 +626,7 @@ private:
 
     Arrangement& world_;
     const double spread_;
+    const double tip_spread_;  // of what a single avoidable point takes from above
     const double tolerance_;
     Status status_;
     Meetings meetings_;

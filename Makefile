@@ -20,7 +20,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help build demo test lint types contracts pytest sanitize bench lock format clean
+.PHONY: help build demo test lint types contracts pytest slow sanitize bench lock format clean
 
 help: ## say what there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -71,8 +71,11 @@ types: build ## mypy --strict
 contracts: build ## import-linter: the floors
 	$(BIN)/lint-imports --no-logo
 
-pytest: build ## tests and doctests; with CI set, the slow ones too
-	$(BIN)/pytest -n $(WORKERS) $(if $(CI),,-m "not slow")
+pytest: build ## tests and doctests, without the slow ones
+	$(BIN)/pytest -n $(WORKERS) -m "not slow"
+
+slow: build ## the slow tests: the laws and the sweep on many more scenes, some 20 minutes
+	$(BIN)/pytest -n $(WORKERS) -m slow
 
 format: build ## ruff: mend what can be mended
 	$(BIN)/ruff check --fix .

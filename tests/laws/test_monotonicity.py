@@ -100,7 +100,7 @@ def preimages(setting: Setting, scene: Scene, more: Region, rng: Random) -> Iter
         yield f"{method.value} grows with the goal", made, found(setting, more), 2.0 * arcs(setting)
         if math.isfinite(senses.position):
             other = changed(setting, position=2.0 * senses.position + 0.01)
-            yield f"{method.value} shrinks with rho", found(other), made, SLACK
+            yield f"{method.value} shrinks with rho", found(other), made, 2.0 * arcs(setting)
         other = changed(setting, control=theta)
         yield f"{method.value} shrinks with theta", found(other), made, 2.0 * arcs(setting)
 

@@ -134,7 +134,9 @@ def turnable_task(seed: int) -> Task | None:
     """A random task with all sides walls, or all open; None if its ends do not survive that."""
     task = random_task(Random(seed))
     walls = frozenset(Side) if len(task.workspace.walls) > 1 else frozenset()
-    options = replace(task.options, search=SearchOrder.BREADTH_FIRST)
+    options = replace(
+        task.options, search=SearchOrder.BREADTH_FIRST, max_steps=3, max_regions=10_000
+    )
     task = replace(task, workspace=replace(task.workspace, walls=walls), options=options)
     try:
         space = configuration_space(task)
@@ -166,7 +168,7 @@ def test_plans_of_random_tasks(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", QUARTERS)
 def test_plans_of_random_tasks_at_length(name: str) -> None:
-    assert check_plans(name, range(60_000, 60_150)) > 10
+    assert check_plans(name, range(60_000, 60_100)) > 6
 
 
 # --- the order in which things are written down ---------------------------------------------

@@ -121,7 +121,8 @@ def holding_reactions(
     off = np.abs(middle)
     holds = off <= half + control + tolerance
     # seen from the side of -v on which the middle lies; the far side is reached round the back
-    near = np.where(off + half >= 2.0 * np.pi - control, -control, np.maximum(off - half, -control))
+    round_ = off + half >= 2.0 * np.pi - control - tolerance
+    near = np.where(round_, -control, np.maximum(off - half, -control))
     far = np.minimum(off + half, control)
     near = np.minimum(near, control)
     low = np.where(middle >= 0.0, near, -far)

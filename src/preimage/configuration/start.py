@@ -17,6 +17,7 @@ from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.errors import TaskError
 from preimage.geometry import area as areas
+from preimage.geometry import inflate
 from preimage.geometry.area import Area
 from preimage.geometry.border import border
 from preimage.geometry.clipping import distances
@@ -106,19 +107,25 @@ def start_region(task: Task, space: ConfigurationSpace) -> Start:
 def covered(start: Start, region: Region, space: ConfigurationSpace) -> bool:
     """Whether the robot is in the region, wherever in the start it is.
 
-    Without slack: what the region leaves out may be as thin as the line above a tip.
+    Without slack: what the region leaves out may be as thin as the line above a tip. Free
+    configurations must be inside by more than the tolerance: with perfect control, a border may be
+    a line along which nature leads astray.
     """
+    near = space.tolerance.length
     if start.kind is StartKind.REGION:
-        inside, near = start.region, space.tolerance.length
+        inside = start.region
+        area = inside.area
+        if not area.is_empty:
+            area = areas.intersection(inflate.grow(area, near), space.free)
         return contact_set.is_subset(inside.contact, region.contact, near) and areas.is_subset(
-            inside.area, region.area, ROUNDING * space.tolerance.grid
+            area, region.area, ROUNDING * space.tolerance.grid
         )
     if start.kind is StartKind.EDGE_POINT:
         return region.contact.contains(start.edge, start.distance, 0.0)
     if start.kind is StartKind.VERTEX:
         return all(region.contact.has_vertex(vertex) for vertex in start.vertices)
     assert start.point is not None
-    return region.area.contains(*start.point)
+    return region.area.contains(*start.point) and region.area.depth(*start.point) > near
 
 
 def _point(point: Point, space: ConfigurationSpace) -> Start:

@@ -137,6 +137,12 @@ class Area:
         inside: NDArray[np.bool_] = shapely.intersects_xy(self.geometry, points[:, 0], points[:, 1])
         return inside
 
+    def depth(self, x: float, y: float) -> float:
+        """Distance of a point from the area's border; infinite if there is none."""
+        if self.is_empty:
+            return float("inf")
+        return float(shapely.distance(shapely.boundary(self.geometry), shapely.Point(x, y)))
+
     def distance(self, x: float, y: float) -> float:
         """Distance of a point from the area; 0 inside, infinite from the empty area."""
         if self.is_empty:

@@ -134,8 +134,7 @@ class Execution:
         if not any(isinstance(c, ReadingCondition) for c in self.preimage.termination):
             return [False] * len(readings)
         rho, near = self.setting.uncertainty.position, self.setting.space.tolerance.length
-        if rho == 0.0:
-            return [self.package_tells(reading) for reading in readings]
+        rho = max(rho, near)
         told = self._misses(readings, rho + 0.5 * near)
         sample = [rng.choice(readings)]
         package = self.package_tells(sample[0])
@@ -199,8 +198,6 @@ class Execution:
         ------
         ViolationError : a reading makes the condition true outside the goal, or not in the kernel.
         """
-        if self._is_a_tie(state):
-            return Told.NOT
         slack = SLACK * self.world.size
         in_goal = self.world.is_in(self.preimage.goal, state, slack)
         in_kernel = self.world.is_in(self.preimage.target.kernel, state)
@@ -214,13 +211,6 @@ class Execution:
         if in_kernel:
             return Told.SURELY
         return Told.MAYBE if any(told) else Told.NOT
-
-    def _is_a_tie(self, state: State) -> bool:
-        """Whether an exact position cannot tell whether the robot is free or in contact."""
-        if not isinstance(state, Free) or self.setting.uncertainty.position > 0.0:
-            return False
-        border = self.setting.space.free.geometry.boundary
-        return bool(shapely.distance(border, shapely.Point(state.x, state.y)) <= self.world.near)
 
     # --- one motion -------------------------------------------------------------------------
 

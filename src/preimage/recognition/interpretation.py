@@ -9,8 +9,7 @@ import numpy as np
 from preimage.configuration.contact import Bools, ContactSpace
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.space import ConfigurationSpace
-from preimage.geometry.border import border
-from preimage.recognition.outside import Outside, border_segments, contact_segments
+from preimage.recognition.outside import Outside, contact_segments
 from preimage.recognition.readings import Readings
 from preimage.recognition.segments import Segments, distances, stretches
 from preimage.task.uncertainty import Uncertainty
@@ -25,7 +24,8 @@ class Interpretation:
     Parameters
     ----------
     position : q.
-    radius : rho: what is consistent lies in the open disc of this radius around q, or at q if 0.
+    radius : rho: what is consistent lies in the open disc of this radius around q; 0 counts as the
+        tolerance.
     features : (2n+1,) which features can read f, numbered as in `Readings`.
     """
 
@@ -85,42 +85,8 @@ def contained(
     segments = segments.part(told.features[segments.feature])
     if np.isinf(told.radius):
         return not len(segments) and not (told.free and not rest.area.is_empty)
-    if told.radius == 0.0:
-        return not _is_at(space, readings, told, rest, segments)
     q = np.array([told.position])
-    reach = told.radius + 0.5 * space.tolerance.length
+    reach = max(told.radius, space.tolerance.length) + 0.5 * space.tolerance.length
     if np.any(distances(np.repeat(q, len(segments), axis=0), segments) < reach):
         return False
     return not told.free or rest.area.distance(*told.position) >= reach
-
-
-def _is_at(
-    space: ConfigurationSpace,
-    readings: Readings,
-    told: Interpretation,
-    rest: Outside,
-    segments: Segments,
-) -> bool:
-    """Whether q itself is a configuration of `rest`: of the least feature that lies there.
-
-    What ends at q, within the tolerance, is left to the target, which is closed.
-    """
-    q, margin = np.array([told.position]), space.tolerance.length
-    whole = contact_segments(space.contact, ContactSet.whole(space.contact))
-    here = whole.feature[distances(np.repeat(q, len(whole), axis=0), whole) <= margin]
-    if np.any(here >= readings.size):
-        corners = here[here >= readings.size]
-        return bool(np.any(np.isin(segments.feature, corners)))
-    if len(here):
-        near = segments.part(np.isin(segments.feature, here))
-        off = [np.hypot(*(end - q).T) for end in (near.starts, near.ends)]
-        at = distances(np.repeat(q, len(near), axis=0), near) <= margin
-        return bool(np.any(at & (off[0] > margin) & (off[1] > margin)))
-    if not told.free or not rest.area.contains(*told.position):
-        return False
-    sides = np.flatnonzero(space.contact.open).astype(np.int32)
-    exits = Segments(space.contact.points[sides], space.contact.ends[sides], sides)
-    if np.any(distances(np.repeat(q, len(exits), axis=0), exits) <= margin):
-        return True  # who is on an open side has escaped
-    edges = border_segments(space.contact, *border(rest.area))
-    return bool(np.all(distances(np.repeat(q, len(edges), axis=0), edges) > margin))

@@ -40,9 +40,8 @@ def kernel(
     ----------
     readings : of all features for v.
     target : T, in valid space.
-    uncertainty : rho is its position; `inf` leaves of each feature all or nothing, and with 0,
-        where only equal positions are confused, the kernel is T but for the places at which
-        several vertices lie on each other.
+    uncertainty : rho is its position; `inf` leaves of each feature all or nothing, and 0 counts
+        as the tolerance: what touches is then told apart by force alone.
     domain : Delta; all of valid space by default.
     arc_tolerance : how far arcs may be off, as a fraction of their radius 2 rho.
 
@@ -53,10 +52,8 @@ def kernel(
     """
     if np.isinf(uncertainty.position):
         return _without_position(space, readings, target, domain)
-    if uncertainty.position == 0.0:
-        return _with_exact_position(space, readings, target, domain)
-
-    radius = 2.0 * uncertainty.position + space.tolerance.length
+    near = space.tolerance.length
+    radius = 2.0 * max(uncertainty.position, near) + near
     around = surroundings(space, target, radius, domain)
     contact = _contact_kernel(space, readings, target.contact, around.meetings)
     if around.straight.is_empty:
@@ -100,21 +97,6 @@ def _without_position(
     keep, corner = told[: len(own.edge)], told[len(own.edge) : -1]
     contact = ContactSet(own.edge[keep], own.low[keep], own.high[keep], own.vertices[corner])
     return Region(target.area if told[-1] else Area.empty(), contact)
-
-
-def _with_exact_position(
-    space: ConfigurationSpace, readings: Readings, target: Region, domain: Domain
-) -> Region:
-    """The kernel at rho = 0: D(0) is a point, so vertices are confused that lie on each other."""
-    own, others = target.contact, outside(space, target, domain).contact.vertices
-    margin, points = space.tolerance.length, space.contact.points
-    first, second = inflate.box_pairs(
-        points[own.vertices] - margin, points[own.vertices] + margin, points[others], points[others]
-    )
-    here, there = readings.size + own.vertices[first], readings.size + others[second]
-    confused = first[alike_pairs(readings, here, there)]
-    contact = ContactSet(own.edge, own.low, own.high, np.delete(own.vertices, confused))
-    return Region(target.area, contact)
 
 
 def _distinct(readings: Readings, features: Ints) -> Ints:

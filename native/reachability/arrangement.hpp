@@ -1,5 +1,6 @@
-// What the sweep runs over: contact edges, cut where the target begins and ends on them, and the
-// border of the target's area inside free space, joined at common points.
+// What a sweep runs over: contact edges, cut where the target begins and ends on them, and the
+// border of the target's area inside free space, joined at common points. There may be more than
+// one target.
 #pragma once
 
 #include <cstdint>
@@ -50,13 +51,18 @@ struct Edge {
     std::int32_t to;
     std::int32_t base;  // the contact edge, or -1: border of the target's area
     std::uint8_t code;
-    bool in_target;      // the piece of the edge itself
-    bool beside_target;  // the free space along it
-    bool rises;          // `from` is its lower end
+    std::uint8_t in_target;      // bits of the sets that hold the piece of the edge itself
+    std::uint8_t beside_target;  // bits of the sets whose areas lie along it; of a border, its own
+    bool rises;                  // `from` is its lower end
 };
 
 struct Arrangement {
-    Arrangement(const ContactSpaceView& contact, const TargetView& target, Frame frame,
+    Arrangement(const ContactSpaceView& contact_, const TargetView& target, Frame frame_,
+                double tolerance)
+        : Arrangement(contact_, std::span(&target, 1), frame_, tolerance) {}
+
+    // Several sets at once, whose areas do not meet; set `i` has the bit `1 << i`.
+    Arrangement(const ContactSpaceView& contact, std::span<const TargetView> sets, Frame frame,
                 double tolerance);
 
     std::int32_t lower(const Edge& e) const { return e.rises ? e.from : e.to; }
@@ -78,14 +84,15 @@ struct Arrangement {
     Frame frame;
     std::vector<Point> points;  // contact vertices, then cuts, then free nodes of the area
     std::vector<Edge> edges;
-    std::vector<std::uint8_t> vertex_in_target;  // by contact vertex
+    std::vector<std::uint8_t> vertex_in_target;  // by contact vertex: bits of the sets
 
 private:
-    void cut_edges(const TargetView& target, double tolerance);
-    void add_border(const TargetView& target);
+    Point cut_between(Point a, Point last, Point b, double t) const;
+    void cut_edges(std::span<const TargetView> sets, double tolerance);
+    void add_border(std::span<const TargetView> sets);
     void index_incidence();
 
-    std::vector<std::int32_t> node_point_;  // by node of the target
+    std::vector<std::int32_t> node_point_;  // by node of the targets, one after the other
     std::vector<std::int32_t> first_;       // by point: its part of `incident_`
     std::vector<std::int32_t> incident_;
 };

@@ -16,6 +16,13 @@ enum class Piece : std::uint8_t {
     Avoidable, // nature can keep the robot from the target
     Good,      // every motion meets the target
     Target,
+    Start,     // of a forward projection: the area that motions start from
+
+    // as both sweeps call what grows, and as a forward projection calls the others
+    Grown = Avoidable,
+    Reached = Avoidable,
+    Untouched = Good,
+    Stop = Target,
 };
 
 inline bool in_backprojection(Piece piece) {

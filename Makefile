@@ -20,7 +20,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help build demo test lint types contracts pytest slow sanitize bench lock format clean
+.PHONY: help build demo test lint types contracts pytest slow soundness sanitize bench lock format clean
 
 help: ## say what there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -48,10 +48,12 @@ endif
 
 # --- using ----------------------------------------------------------------------------------
 
-demo: build ## plan peg-in-hole, print the plan, leave it and its picture in build/demo
+demo: build ## plan peg-in-hole, run it 1,000 times under all adversaries, leave pictures in build/demo
 	@mkdir -p build/demo
 	$(BIN)/preimage plan --example peg-in-hole --method combined \
 	    -o build/demo/peg-in-hole.json --figure build/demo/peg-in-hole.png
+	$(BIN)/preimage run build/demo/peg-in-hole.json --adversary all --runs 1000 \
+	    --figure build/demo/runs.png
 
 bench: build ## run the benchmarks
 	$(BIN)/python -m benchmarks --page docs/benchmarks.md
@@ -76,6 +78,9 @@ pytest: build ## tests and doctests, without the slow ones
 
 slow: build ## the slow tests: the laws and the sweep on many more scenes, some 20 minutes
 	$(BIN)/pytest -n $(WORKERS) -m slow
+
+soundness: build ## every named task's plans 1,000 times under each pair of adversaries
+	$(BIN)/python examples/tables/soundness.py --runs 1000 --workers $(WORKERS) docs/soundness.md
 
 format: build ## ruff: mend what can be mended
 	$(BIN)/ruff check --fix .

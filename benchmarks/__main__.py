@@ -6,14 +6,20 @@ import argparse
 from pathlib import Path
 
 from benchmarks.backprojection import growth
+from benchmarks.execution import motions
+from benchmarks.executor import executors
+from benchmarks.forward import forward_growth
 from benchmarks.planning import processes, small_scenes, whole_plans
 from benchmarks.timing import table
 
 BENCHMARKS = {
     "Growth of the sweep": growth,
+    "Growth of the forward projection": forward_growth,
     "Small scenes": small_scenes,
     "Whole plans": whole_plans,
     "Processes": processes,
+    "Motions": motions,
+    "Readings": executors,
 }
 
 PAGE = """# Benchmarks

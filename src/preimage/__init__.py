@@ -10,10 +10,13 @@ from preimage import display
 if TYPE_CHECKING:
     from preimage.configuration.obstacles import configuration_space as configuration_space
     from preimage.errors import PreimageError as PreimageError
+    from preimage.execution.executor import Executor as Executor
+    from preimage.execution.runs import run as run
     from preimage.preimages.methods import preimage as preimage
     from preimage.preimages.setting import Setting as Setting
     from preimage.reachability.backprojection import backproject as backproject
     from preimage.recognition.kernel import kernel as kernel
+    from preimage.rendering import animate as animate
     from preimage.rendering import draw as draw
     from preimage.search.planner import plan as plan
     from preimage.strategy.describe import describe as describe
@@ -26,18 +29,21 @@ if TYPE_CHECKING:
     from preimage.task.files import load_task as load_task
     from preimage.task.options import Method as Method
     from preimage.task.task import Task as Task
+    from preimage.verification.verify import verify as verify
 
     __version__: str
 
 # The public names and the module that each lives in: loaded when first asked for, so that
 # `import preimage` costs nothing. Whoever reads types sees them above.
 _HOMES: dict[str, str] = {
+    "Executor": "preimage.execution.executor",
     "Method": "preimage.task.options",
     "PreimageError": "preimage.errors",
     "Setting": "preimage.preimages.setting",
     "Status": "preimage.strategy.strategy",
     "Strategy": "preimage.strategy.strategy",
     "Task": "preimage.task.task",
+    "animate": "preimage.rendering",
     "backproject": "preimage.reachability.backprojection",
     "configuration_space": "preimage.configuration.obstacles",
     "describe": "preimage.strategy.describe",
@@ -49,6 +55,8 @@ _HOMES: dict[str, str] = {
     "plan": "preimage.search.planner",
     "preimage": "preimage.preimages.methods",
     "read_plan": "preimage.strategy.plan_file",
+    "run": "preimage.execution.runs",
+    "verify": "preimage.verification.verify",
     "write_plan": "preimage.strategy.plan_file",
 }
 

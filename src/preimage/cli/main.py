@@ -23,6 +23,8 @@ FAILED, INTERRUPTED = 70, 130
 
 COMMANDS: dict[str, str] = {
     "plan": "preimage.cli.planning",
+    "run": "preimage.cli.execution",
+    "verify": "preimage.cli.verification",
     "check": "preimage.cli.inspection",
     "draw": "preimage.cli.drawing",
     "backproject": "preimage.cli.stages",

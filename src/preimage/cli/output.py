@@ -98,6 +98,8 @@ def check_outputs(inputs: list[str | None], **outputs: str | None) -> None:
             continue
         if option == "figure":
             _check_figure(path)
+        elif option == "animate":
+            _check_film(path)
         elif path == STANDARD:
             continue
         _check_writable(path)
@@ -116,6 +118,17 @@ def _check_figure(path: str) -> None:
         format_of(path)
     if find_spec("matplotlib") is None:
         raise RefusalError("--figure: needs matplotlib: pip install 'preimage[draw]'")
+
+
+def _check_film(path: str) -> None:
+    from importlib.util import find_spec
+
+    if find_spec("matplotlib") is None:
+        raise RefusalError("--animate: needs matplotlib: pip install 'preimage[draw]'")
+    from preimage.rendering.animation import film_format_of
+
+    with about(path):
+        film_format_of(path)
 
 
 def _check_writable(path: str) -> None:

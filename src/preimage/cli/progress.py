@@ -16,6 +16,9 @@ from preimage.search.limits import Progress
 QUIET = 0.5
 """Seconds before the first line: what is quick needs none."""
 
+BAR = 30
+"""Characters of a bar that fills."""
+
 PAUSE = 0.1
 """Seconds between one line and the next."""
 
@@ -37,6 +40,14 @@ class ProgressLine:
         self._print(
             f"{progress.regions} regions, layer {progress.layer}{best}, {progress.seconds:.1f} s"
         )
+
+    def runs(self, done: int, total: int) -> None:
+        """Say how many runs are done, if it is time to: a bar that fills."""
+        if not self._terminal or time.monotonic() < self._next:
+            return
+        self._next = time.monotonic() + PAUSE
+        full = round(BAR * done / max(total, 1))
+        self._print(f"[{'#' * full}{'.' * (BAR - full)}] {done} of {total} runs")
 
     def say(self, text: str) -> None:
         """Say what is being done."""

@@ -41,6 +41,24 @@ def border(area: Area) -> tuple[Floats, Ints]:
     return points, following
 
 
+def stored_segments(area: Area) -> tuple[Floats, Floats]:
+    """(m, 2) starts and ends of all segments of the border, in the directions that GEOS has them.
+
+    So distances from them can be computed as GEOS does, to the last bit.
+
+    >>> starts, ends = stored_segments(Area.box(0, 0, 2, 1))
+    >>> (starts[0] == ends[-1]).all()
+    np.True_
+    """
+    if area.is_empty:
+        return np.empty((0, 2)), np.empty((0, 2))
+    _, closed, offsets = shapely.to_ragged_array(shapely.get_parts(area.geometry))
+    points = np.asarray(closed, dtype=np.float64)
+    inner = np.ones(len(points) - 1, dtype=np.bool_)
+    inner[np.asarray(offsets[0], dtype=np.int64)[1:-1] - 1] = False  # from ring to ring
+    return points[:-1][inner], points[1:][inner]
+
+
 def identified(points: Floats) -> tuple[Floats, Ints]:
     """The different ones among points, and the place of each point among them.
 

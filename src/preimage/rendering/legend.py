@@ -24,10 +24,12 @@ from preimage.rendering.style import (
     FADED,
     GREEN,
     INK,
+    MARKS,
     OBSTACLE_GREY,
     ORANGE,
     PAPER,
     REGIONS,
+    VERMILLION,
     Layer,
 )
 
@@ -45,6 +47,12 @@ WORDS: dict[Layer, str] = {
     Layer.TARGET: r"target $\mathcal{T}$",
     Layer.STICKING: "target that sticks",
     Layer.RAY: "bounding ray",
+    Layer.RUN: "way of a run",
+    Layer.FAILURE: "run that failed",
+    Layer.BEGIN: "where it begins",
+    Layer.END: "where it is ended",
+    Layer.MEASURED: "position as measured",
+    Layer.FORCE: "force as measured",
 }
 """The keys of layers, in their order."""
 
@@ -168,12 +176,21 @@ def _glyph(layer: Layer, angle: float, box: tuple[float, float, float, float]) -
         )
         edge = Line2D([x, x + wide], [y + high, y + high], color=INK, linewidth=1.1)
         return [shape, edge] if layer is Layer.WALL else [shape]
+    middle = y + 0.5 * high
+    if layer in MARKS:
+        shape_, color = MARKS[layer]
+        return [Line2D([x + 0.5 * wide], [middle], color=color, marker=shape_, markersize=4.5)]
+    if layer is Layer.FORCE:
+        tail, tip = np.array((x, middle)), np.array((x + wide, middle))
+        return [Polygon(arrow(tail, tip, (5.0, 1.9), 1.0), facecolor=VERMILLION, linewidth=0.0)]
+    if layer in (Layer.RUN, Layer.FAILURE):
+        color, width = (BLUE, 1.0) if layer is Layer.RUN else (VERMILLION, 2.2)
+        return [Line2D([x, x + wide], [middle] * 2, color=color, linewidth=width)]
     if layer in (Layer.OPEN_SIDE, Layer.RAY):
         color, width, dashes = {
             Layer.OPEN_SIDE: (FADED, 0.8, (5.0, 3.5)),
             Layer.RAY: (INK, 1.1, (4.0, 3.0)),
         }[layer]
-        middle = y + 0.5 * high
         return [Line2D([x, x + wide], [middle] * 2, color=color, linewidth=width, dashes=dashes)]
     return _bound_glyph(layer, angle, box)
 

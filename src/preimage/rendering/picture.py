@@ -20,12 +20,15 @@ if TYPE_CHECKING:
 
     from preimage.configuration.region import Region
     from preimage.configuration.space import ConfigurationSpace
+    from preimage.execution.report import Report
+    from preimage.execution.trace import Trace
     from preimage.preimages.preimage import Preimage
     from preimage.reachability.backprojection import Backprojection
     from preimage.strategy.strategy import Strategy
     from preimage.task.task import Task
 
-    Subject = Task | ConfigurationSpace | Strategy | Preimage | Backprojection | Region
+    Stage = Preimage | Backprojection | Region
+    Subject = Task | ConfigurationSpace | Strategy | Stage | Trace | Report
 
 
 class Format(Enum):
@@ -66,7 +69,7 @@ def figure(
     direction: float | None = None,
     **options: Any,
 ) -> Figure:
-    """A matplotlib figure of a task, a space, a strategy, or one of the stages of planning.
+    """A matplotlib figure of a task, a space, a strategy, a stage of planning, or of runs.
 
     A strategy becomes a row of panels, one a motion; what has no strategy, a panel of what was
     found. It belongs to no window and leaves matplotlib's settings as they were.
@@ -83,7 +86,7 @@ def figure(
     InputError : an option is out of its range, or a region comes without a task and a space.
     UnsupportedError : matplotlib is not installed.
     """
-    with _settings():
+    with settings():
         return _figure(subject, task, space, direction, options)
 
 
@@ -106,7 +109,7 @@ def draw(
     OSError : the file cannot be written.
     """
     kind = format_of(path)
-    with _settings():
+    with settings():
         made = _figure(subject, task, space, direction, options)
         content = _rendered(made, kind, options.get("dpi"))
     write_whole(Path(path), content)
@@ -121,13 +124,13 @@ def svg(
     **options: Any,
 ) -> str:
     """A picture as the text of an SVG, as notebooks show it. Parameters as of `figure`."""
-    with _settings():
+    with settings():
         made = _figure(subject, task, space, direction, options)
         return _rendered(made, Format.SVG, None).decode("utf-8")
 
 
 @contextmanager
-def _settings() -> Iterator[None]:
+def settings() -> Iterator[None]:
     """Our settings for matplotlib and nobody else's."""
     try:
         import matplotlib.style
@@ -150,12 +153,15 @@ def _figure(
 ) -> Figure:
     from preimage.configuration.region import Region
     from preimage.configuration.space import ConfigurationSpace
+    from preimage.execution.report import Report
+    from preimage.execution.trace import Trace
     from preimage.preimages.preimage import Preimage
     from preimage.reachability.backprojection import Backprojection
     from preimage.rendering import stages
     from preimage.rendering.options import PictureOptions
     from preimage.rendering.scene import Scene
     from preimage.rendering.strategy import strategy_figure
+    from preimage.rendering.trace import report_figure, trace_figure
     from preimage.strategy.strategy import Strategy
     from preimage.task.task import Task
 
@@ -172,6 +178,10 @@ def _figure(
     match subject:
         case Strategy():
             return strategy_figure(subject, chosen)
+        case Trace():
+            return trace_figure(subject, chosen)
+        case Report():
+            return report_figure(subject, chosen)
         case Task():
             return stages.task_figure(subject, space, chosen)
         case ConfigurationSpace():

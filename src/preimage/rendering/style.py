@@ -70,6 +70,12 @@ class Layer(Enum):
     CONTROL_CONE = "control-cone"
     FRICTION_CONE = "friction-cone"
     FORCE_CONE = "force-cone"
+    RUN = "run"
+    FAILURE = "failure"
+    BEGIN = "begin"
+    END = "end"
+    MEASURED = "measured"
+    FORCE = "force"
     NAME = "name"
     EDGE_NUMBER = "edge-number"
 
@@ -136,6 +142,13 @@ REGIONS: dict[Layer, RegionStyle] = {
     ),
 }  # fmt: skip
 """The layers that are regions. On a contact edge they lie beside each other, the goal innermost."""
+
+MARKS: dict[Layer, tuple[str, str]] = {
+    Layer.BEGIN: ("o", BLACK),
+    Layer.END: ("s", GREEN),
+    Layer.MEASURED: ("+", ORANGE),
+}
+"""Instants of a run: a marker, and its colour."""
 
 LEAST_SIZE = 7.0
 """Points: whatever is smaller on paper gets a ring around it."""

@@ -1,0 +1,73 @@
+"""What many runs of a plan came to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from preimage.display import Shown
+from preimage.execution.trace import Outcome, Trace
+from preimage.strategy.strategy import Strategy
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """The runs under one pair of adversaries.
+
+    Parameters
+    ----------
+    outcomes : how many runs ended how; outcomes that did not occur are left out.
+    time, distance, motions : mean and largest of all runs, in units of length, and a count.
+    """
+
+    control: str
+    sensing: str
+    runs: int
+    outcomes: Mapping[Outcome, int]
+    time: tuple[float, float]
+    distance: tuple[float, float]
+    motions: tuple[float, int]
+
+    @property
+    def failures(self) -> int:
+        """How many runs did not succeed."""
+        return self.runs - self.outcomes.get(Outcome.SUCCESS, 0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Report(Shown):
+    """All runs.
+
+    Parameters
+    ----------
+    tallies : one for each pair of adversaries.
+    failure : the first run that failed, whole.
+    slowest : of the runs that succeeded, the one that took longest.
+    samples : some runs of each pair, for pictures.
+    """
+
+    strategy: Strategy
+    tallies: tuple[Tally, ...]
+    failure: Trace | None
+    slowest: Trace | None
+    samples: tuple[Trace, ...]
+    seconds: float = 0.0
+
+    @property
+    def runs(self) -> int:
+        """How many there were."""
+        return sum(tally.runs for tally in self.tallies)
+
+    @property
+    def failures(self) -> int:
+        """How many did not succeed."""
+        return sum(tally.failures for tally in self.tallies)
+
+    @property
+    def outcomes(self) -> dict[Outcome, int]:
+        """How many ended how, in the order of `Outcome`."""
+        found = {
+            outcome: sum(tally.outcomes.get(outcome, 0) for tally in self.tallies)
+            for outcome in Outcome
+        }
+        return {outcome: count for outcome, count in found.items() if count}

@@ -1,0 +1,249 @@
+"""Runs in their scene: a panel for each motion, with the ways of many runs or of one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Polygon
+from matplotlib.text import Text
+from numpy.typing import NDArray
+
+from preimage.configuration.region import Region
+from preimage.execution.report import Report
+from preimage.execution.trace import Leg, Outcome, Trace
+from preimage.geometry.angles import unit
+from preimage.rendering.glyphs import arrow, draw_direction
+from preimage.rendering.layers import draw_region
+from preimage.rendering.options import PictureOptions
+from preimage.rendering.panel import Panel
+from preimage.rendering.scene import Scene, draw_scene
+from preimage.rendering.sheet import Plate, compose
+from preimage.rendering.strategy import degrees, in_order
+from preimage.rendering.style import BLUE, MARKS, PAPER, VERMILLION, Layer
+
+Floats = NDArray[np.float64]
+
+MOST_RUNS = 300
+"""So many runs are drawn."""
+
+FEW_RUNS = 6
+"""Of so many runs also what was measured at the end of each motion is drawn."""
+
+MOST_DISCS = 400.0
+"""Points: larger discs of the position error would hide the scene."""
+
+FORCE_LENGTH = 20.0
+"""Points: how long the arrow of a measured force is."""
+
+
+def trace_figure(trace: Trace, options: PictureOptions) -> Figure:
+    """The figure of one run: where it went in each motion, and what was read when that ended."""
+    words = trace.words or trace.outcome.value
+    name = trace.strategy.task.name.replace("$", r"\$")
+    title = f"{name}: run {trace.number} under {trace.control}+{trace.sensing}, {words}"
+    return _figure(trace, [trace], title, options)
+
+
+def report_figure(report: Report, options: PictureOptions) -> Figure:
+    """The figure of many runs: some of each pair of adversaries, and the first that failed."""
+    name = report.strategy.task.name.replace("$", r"\$")
+    runs = [trace for trace in report.samples if trace.outcome is Outcome.SUCCESS]
+    runs = runs[:: max(1, -(-len(runs) // MOST_RUNS))]
+    shown = [*runs, *([report.failure] if report.failure else [])]
+    words = (
+        f"all {report.runs:,} runs succeeded"
+        if not report.failures
+        else (f"{report.failures:,} of {report.runs:,} runs failed")
+    )
+    title = f"{name}: {words}"
+    if len(shown) < report.runs:
+        title += f"; {len(shown)} of them shown"
+    return _figure(report, shown, title, options)
+
+
+def _figure(
+    subject: Trace | Report, traces: Sequence[Trace], title: str, options: PictureOptions
+) -> Figure:
+    strategy = subject.strategy
+    scene = Scene.of(strategy.task, strategy.space)
+    used = {leg.region for trace in traces for leg in trace.legs}
+    order = [region.id for region in in_order(strategy) if region.id in used]
+    order += sorted(used - set(order))
+    plates = [
+        _plate(scene, subject, traces, number, place, len(order))
+        for place, number in enumerate(order[: options.max_panels])
+    ]
+    if not plates:
+        detail = "the start lies in the goal"
+        plates = [Plate("scene", "Nothing to do", detail, partial(draw_scene, scene=scene))]
+    words = {Layer.FOUND: r"preimage $\mathcal{P}$"}
+    return compose(scene, plates, title, options, words=words, command=bool(order))
+
+
+def film_figure(trace: Trace, number: int) -> Figure:
+    """The ground of a film of one of a run's motions: all that does not move in it."""
+    strategy, leg = trace.strategy, trace.legs[number]
+    scene = Scene.of(strategy.task, strategy.space)
+    plate = _plate(scene, trace, [], leg.region, number, len(trace.legs))
+    options = PictureOptions(legend=False)
+    title = f"{strategy.task.name}: {trace.control}+{trace.sensing}".replace("$", r"\$")
+    return compose(scene, [replace(plate, detail=" ")], title, options)
+
+
+def _plate(
+    scene: Scene,
+    subject: Trace | Report,
+    traces: Sequence[Trace],
+    number: int,
+    place: int,
+    count: int,
+) -> Plate:
+    region = subject.strategy.region(number)
+    motion = region.motion
+    direction = motion.direction if motion is not None else 0.0
+    legs = [(trace, leg) for trace in traces for leg in trace.legs if leg.region == number]
+
+    def paint(panel: Panel) -> None:
+        draw_scene(panel, scene, start=place == 0)
+        if motion is not None:
+            draw_region(panel, Layer.TARGET, motion.target)
+            quiet = Region(region.region.area, motion.target.contact)
+            draw_region(panel, Layer.FOUND, quiet, number=number)
+        draw_legs(panel, legs, scene.task.uncertainty.position if scene.task else 0.0)
+        draw_direction(panel, direction, scene.task.uncertainty.control if scene.task else None)
+
+    heading = f"Motion {place + 1} of {count}: {degrees(direction)}"
+    return Plate(f"motion-{place + 1}", heading, _detail(legs), paint, compass=True)
+
+
+def _detail(legs: Sequence[tuple[Trace, Leg]]) -> str:
+    """How the motion was ended in these runs."""
+    words = [leg.ended_by or "nothing" for _, leg in legs]
+    kinds = sorted(set(words), key=lambda word: (-words.count(word), word))
+    if len(words) == 1:
+        return f"ended by {kinds[0]} after {legs[0][1].times[-1] - legs[0][1].times[0]:.4g}"
+    return "ended by " + ", ".join(f"{kind} ({words.count(kind)})" for kind in kinds)
+
+
+def draw_legs(panel: Panel, legs: Sequence[tuple[Trace, Leg]], error: float) -> None:
+    """Draw the ways of runs in one motion, failures on top.
+
+    Parameters
+    ----------
+    error : of a measured position; of few runs its disc is drawn at the end of the motion.
+    """
+    good = [leg for trace, leg in legs if trace.outcome is Outcome.SUCCESS]
+    bad = [(trace, leg) for trace, leg in legs if trace.outcome is not Outcome.SUCCESS]
+    if good:
+        opacity = max(0.12, min(0.9, 8.0 / len(good)))
+        width = 1.4 if len(good) <= FEW_RUNS else 0.7
+        _draw_ways(panel, Layer.RUN, good, BLUE, width, opacity, 7.0)
+        _draw_marks(panel, Layer.BEGIN, [leg.places[0] for leg in good], len(good))
+        _draw_marks(panel, Layer.END, [leg.places[-1] for leg in good], len(good))
+    if bad:
+        _draw_ways(panel, Layer.FAILURE, [leg for _, leg in bad], VERMILLION, 2.0, 1.0, 7.6)
+        _draw_marks(panel, Layer.BEGIN, [leg.places[0] for _, leg in bad], 1)
+        for trace, leg in bad:
+            if leg is trace.legs[-1]:
+                _draw_outcome(panel, trace, leg)
+    if len(legs) <= FEW_RUNS:
+        for _, leg in legs:
+            draw_reading(panel, leg, len(leg.times) - 1, error)
+
+
+def _draw_ways(
+    panel: Panel,
+    layer: Layer,
+    legs: Sequence[Leg],
+    color: str,
+    width: float,
+    opacity: float,
+    order: float,
+) -> None:
+    ways = LineCollection(
+        [leg.places for leg in legs],
+        colors=[color],
+        linewidths=[width],
+        alpha=opacity,
+        capstyle="round",
+        joinstyle="round",
+        zorder=order,
+    )
+    panel.add(ways, layer)
+    for leg in legs:
+        panel.lattice.cost += 0.3 * panel.lattice.along(leg.places[:-1], leg.places[1:])
+
+
+def _draw_marks(panel: Panel, layer: Layer, places: Sequence[Floats], count: int) -> None:
+    shape, color = MARKS[layer]
+    points = np.array(places)
+    marks = Line2D(
+        points[:, 0].tolist(),
+        points[:, 1].tolist(),
+        linestyle="none",
+        marker=shape,
+        markersize=4.5 if count <= FEW_RUNS else 2.2,
+        markerfacecolor=color,
+        markeredgecolor=PAPER,
+        markeredgewidth=0.5 if count <= FEW_RUNS else 0.2,
+        clip_on=False,
+        zorder=8.0,
+    )
+    panel.add(marks, layer)
+
+
+def _draw_outcome(panel: Panel, trace: Trace, leg: Leg) -> None:
+    """Mark where a run failed, and say how."""
+    x, y = leg.places[-1].tolist()
+    cross = Line2D(
+        [x], [y], linestyle="none", marker="X", markersize=8.0, markerfacecolor=VERMILLION,
+        markeredgecolor=PAPER, clip_on=False, zorder=9.0,
+    )  # fmt: skip
+    panel.add(cross, Layer.FAILURE, "end")
+    words = trace.outcome.value
+    wide, high = 4.2 * len(words) * panel.unit, 10.0 * panel.unit
+    away = panel.lattice.from_point(x, y) / panel.unit
+    place = panel.lattice.clearest(wide, high, 4.0 * np.maximum(away - 12.0, 0.0))
+    if place is None:
+        return
+    text = Text(
+        *place, words, fontsize=7.5, color=VERMILLION, ha="center", va="center", zorder=10.0
+    )
+    text.set_bbox({"facecolor": PAPER, "alpha": 0.8, "edgecolor": "none", "pad": 0.6})
+    panel.add(text, Layer.FAILURE, "words")
+    panel.lattice.take(*place, wide, high)
+
+
+def draw_reading(panel: Panel, leg: Leg, instant: int, error: float) -> None:
+    """Draw what was read at an instant: the position with its error's disc, and the force."""
+    place, measured = leg.places[instant], leg.measured[instant]
+    if np.all(np.isfinite(measured)):
+        shape, color = MARKS[Layer.MEASURED]
+        mark = Line2D(
+            [float(measured[0])], [float(measured[1])], linestyle="none", marker=shape,
+            markersize=7.0, markeredgecolor=color, markeredgewidth=1.4, clip_on=False, zorder=8.4,
+        )  # fmt: skip
+        panel.add(mark, Layer.MEASURED)
+        if 0.0 < panel.points(error) < MOST_DISCS:
+            disc = Circle(
+                (float(measured[0]), float(measured[1])), error, facecolor="none",
+                edgecolor=color, linewidth=0.8, linestyle=(0.0, (1.0, 1.6)), zorder=8.3,
+            )  # fmt: skip
+            panel.add(disc, Layer.MEASURED, "error")
+    force = float(leg.forces[instant])
+    if math.isfinite(force):
+        along = np.array(unit(force))
+        tail = place - FORCE_LENGTH * panel.unit * along
+        head = (5.0 * panel.unit, 1.9 * panel.unit)
+        push = Polygon(
+            arrow(tail, place, head, 1.1 * panel.unit),
+            facecolor=VERMILLION, linewidth=0.0, zorder=8.5, clip_on=False,
+        )  # fmt: skip
+        panel.add(push, Layer.FORCE)

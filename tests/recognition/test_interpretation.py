@@ -124,6 +124,17 @@ def test_outside_with_exact_position() -> None:
         assert contained(space, case.readings, told, rest) is expected
 
 
+def test_a_position_that_is_no_number_tells_nothing() -> None:
+    case = random_case(0)
+    space = space_of([shapely.box(-3, -3, 3, 0)])
+    senses = replace(case.senses, position=0.5)
+    case = Case(space, Region.empty(), -math.pi / 2, 0.2, senses)
+    rest = outside(space, Region.empty())
+    for force in (None, math.pi / 2):
+        told = interpretation(case.readings, (math.nan, 0.0), force, senses)
+        assert not contained(space, case.readings, told, rest)
+
+
 def test_interpretation_of_a_force() -> None:
     """Paper 5.3: contact within rho of q that may push back that way."""
     case = random_case(0)

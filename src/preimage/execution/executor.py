@@ -63,8 +63,8 @@ class Executor:
     """Carries a solved plan out: reading by reading it says what to command, and when to stop.
 
     It ends in the goal and knows it, or says which assumption of the model a reading contradicts,
-    and stops; after that every call has the same answer. A stream from a world as the task describes
-    it, read often enough, is never found broken.
+    and stops; after that every call has the same answer. A stream from a world as the task
+    describes it, read often enough, is never found broken.
 
     The conditions of a plan are looked at continuously; this one looks when a reading comes. A
     motion that is ended by its sticking condition loses nothing but time. One that is ended by a

@@ -87,6 +87,6 @@ def contained(
         return not len(segments) and not (told.free and not rest.area.is_empty)
     q = np.array([told.position])
     reach = max(told.radius, space.tolerance.length) + 0.5 * space.tolerance.length
-    if np.any(distances(np.repeat(q, len(segments), axis=0), segments) < reach):
-        return False
+    if not np.all(distances(np.repeat(q, len(segments), axis=0), segments) >= reach):
+        return False  # also where q is not a number
     return not told.free or rest.area.distance(*told.position) >= reach

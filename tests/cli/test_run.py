@@ -106,8 +106,10 @@ def test_the_first_failure_is_told_and_kept(broken: Path, tmp_path: Path, capsys
 
 def test_runs_from_a_place(plan_file: Path, capsys: Capture) -> None:
     arguments = ["run", str(plan_file), "--runs", "2", "--adversary", "random+noise"]
-    assert run([*arguments, "--from", "-6,3"]) in (0, 1)
-    capsys.readouterr()
+    assert run([*arguments, "--from", "-6,3"]) == 0
+    assert capsys.readouterr().err == ""
+    assert run([*arguments, "--from", "9,9"]) == 1
+    assert "from there nothing is guaranteed" in capsys.readouterr().err
     for place, words in (
         ("here", "must be two numbers"),
         ("1", "must be two numbers"),

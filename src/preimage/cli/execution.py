@@ -193,7 +193,8 @@ def _start(strategy: Strategy, place: str | None) -> Any:
         return None
     from dataclasses import replace
 
-    from preimage.configuration.start import start_region
+    from preimage.configuration.start import covered, start_region
+    from preimage.strategy.words import joined
     from preimage.task.initial import InitialPoint
 
     parts = place.split(",")
@@ -203,7 +204,12 @@ def _start(strategy: Strategy, place: str | None) -> Any:
         raise RefusalError(f"--from: is {place!r}, must be two numbers such as 1.5,4") from None
     with about("", {"initial.point": "--from"}):
         task = replace(strategy.task, initial=InitialPoint((x, y)))
-        return start_region(task, strategy.space)
+        start = start_region(task, strategy.space)
+    regions = [strategy.region(number) for number in strategy.start]
+    if not any(covered(start, region.region, strategy.space) for region in regions):
+        names = joined([f"region {region.id}" for region in regions], "or")
+        note(f"({x:.6g}, {y:.6g}) is not in {names}: from there nothing is guaranteed")
+    return start
 
 
 def _film(trace: Trace, path: str) -> None:

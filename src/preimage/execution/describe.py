@@ -19,13 +19,13 @@ def describe_report(report: Report) -> str:
     """What many runs came to: how many succeeded, what they took, what failed first."""
     name = report.strategy.task.name
     lines = [
-        f"{name}: {count(report.runs, 'run')} under"
+        f"{name}: {report.runs:,} {'run' if report.runs == 1 else 'runs'} under"
         f" {count(len(report.tallies), 'pair')} of adversaries"
     ]
     done = report.outcomes.get(Outcome.SUCCESS, 0)
-    lines.append(f"succeeded    {done} ({_share(done, report.runs)})")
+    lines.append(f"succeeded    {done:,} ({_share(done, report.runs)})")
     lines += [
-        f"failed       {many} ({_share(many, report.runs)}): {outcome.value}"
+        f"failed       {many:,} ({_share(many, report.runs)}): {outcome.value}"
         for outcome, many in report.outcomes.items()
         if outcome is not Outcome.SUCCESS
     ]

@@ -77,7 +77,8 @@ def run(
 
     Raises
     ------
-    ValueError : the plan is not solved, or a name is not known.
+    PlanFileError : the plan is not solved.
+    ValueError : a name is not known.
 
     >>> import preimage
     >>> strategy = preimage.plan(preimage.named_task("peg-in-hole"))

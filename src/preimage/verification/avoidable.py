@@ -39,6 +39,7 @@ from preimage.configuration.contact import ContactSpace
 from preimage.configuration.contact_set import ContactSet
 from preimage.geometry.tolerance import Tolerance
 from preimage.verification.features import Features
+from preimage.verification.levels import Levels, Marked, near, where_positive
 from preimage.verification.slabs import BORDER, Cell, Slabs, Span
 
 
@@ -76,39 +77,6 @@ class _Below:
     edges: dict[int, bool]
 
 
-class _Target:
-    """Membership in a target's contact part."""
-
-    def __init__(self, contact: ContactSet, tolerance: float) -> None:
-        self._intervals: dict[int, list[Span]] = {}
-        ends = zip(contact.edge.tolist(), contact.low.tolist(), contact.high.tolist(), strict=True)
-        for edge, low, high in ends:
-            self._intervals.setdefault(edge, []).append((low, high))
-        self._vertices = frozenset(contact.vertices.tolist())
-        self._tolerance = tolerance
-
-    def has(self, edge: int, distance: float) -> bool:
-        """Whether the point at `distance` from the start of `edge` is in the target."""
-        slack = self._tolerance
-        return any(
-            low - slack <= distance <= high + slack for low, high in self._intervals.get(edge, ())
-        )
-
-    def has_vertex(self, vertex: int) -> bool:
-        """Whether the vertex is in the target."""
-        return vertex in self._vertices
-
-    def gaps(self, edge: int, length: float) -> tuple[Span, ...]:
-        """The parts of the edge that are not in the target."""
-        gaps: list[Span] = []
-        begin = 0.0
-        for low, high in sorted(self._intervals.get(edge, ())):
-            gaps.append((begin, low))
-            begin = high
-        gaps.append((begin, length))
-        return tuple(gap for gap in gaps if gap[1] - gap[0] > self._tolerance)
-
-
 def avoidable_set(
     contact: ContactSpace,
     slabs: Slabs,
@@ -127,7 +95,7 @@ def avoidable_set(
     control : `theta`, in radians.
     """
     spread = math.tan(max(control, tolerance.angle))
-    chosen = _Target(target, tolerance.length)
+    chosen = Marked(target, tolerance.length)
     return _Propagation(contact, slabs, features, chosen, spread, tolerance.length).run()
 
 
@@ -139,15 +107,15 @@ class _Propagation:
         contact: ContactSpace,
         slabs: Slabs,
         features: Features,
-        target: _Target,
+        target: Marked,
         spread: float,
         tolerance: float,
     ) -> None:
         self.slabs, self.target = slabs, target
         self.spread, self.tolerance = spread, tolerance
-        self.next: list[int] = contact.next.tolist()
-        self.previous: list[int] = contact.previous.tolist()
-        self.length: list[float] = contact.length.tolist()
+        self.levels = Levels(contact, slabs, tolerance)
+        self.next, self.previous = self.levels.next, self.levels.previous
+        self.length = self.levels.length
         self.open: list[bool] = contact.open.tolist()
         self.keeps: list[bool] = features.keeps.tolist()
         self.slides: list[bool] = features.slides.tolist()
@@ -155,13 +123,6 @@ class _Propagation:
         self.keeps_vertex: list[bool] = features.keeps_vertex.tolist()
         self.edges: list[list[Span]] = [[] for _ in self.next]
         self.vertices: list[bool] = [False for _ in self.next]
-        count = len(slabs.heights)
-        self.at_level: list[list[int]] = [[] for _ in range(count)]
-        self.level_edges: list[list[int]] = [[] for _ in range(count)]
-        for vertex, level in enumerate(slabs.level):
-            self.at_level[level].append(vertex)
-            if slabs.level[self.next[vertex]] == level:
-                self.level_edges[level].append(vertex)
 
     def run(self) -> Avoidable:
         """Settle level by level, slab by slab."""
@@ -169,7 +130,7 @@ class _Propagation:
         sources: list[tuple[tuple[Span, ...], ...]] = []
         for level in range(len(self.slabs.heights)):
             floors = self._level_edges(level, below)
-            for vertex in self.at_level[level]:
+            for vertex in self.levels.at_level[level]:
                 self.vertices[vertex] = self._vertex(vertex, below)
             if level < len(self.slabs.cells):
                 below, grown = self._slab(level, below, floors)
@@ -184,7 +145,7 @@ class _Propagation:
     def _level_edges(self, level: int, below: _Below) -> list[Span]:
         """Settle the level edges; the places of those with free space above that are in `N`."""
         floors: list[Span] = []
-        for edge in self.level_edges[level]:
+        for edge in self.levels.level_edges[level]:
             start, end = self.slabs.x[edge], self.slabs.x[self.next[edge]]
             if end >= start:  # free space above: it keeps all but the target
                 whole = ((0.0, self.length[edge]),)
@@ -212,7 +173,7 @@ class _Propagation:
         return any(
             near(x, low, high, self.tolerance)
             for cell, reached in zip(below.cells, below.reached, strict=True)
-            if reached and self._sees(vertex, cell, upwards=False)
+            if reached and self.levels.sees(vertex, cell, upwards=False)
             for low, high in reached
         )
 
@@ -255,8 +216,8 @@ class _Propagation:
         for lower, reached in zip(below.cells, below.reached, strict=True):
             view = (max(lower.ceiling[0], cell.floor[0]), min(lower.ceiling[1], cell.floor[1]))
             places.extend(self._clipped(reached, view))
-        for vertex in self.at_level[level]:
-            if self.vertices[vertex] and self._sees(vertex, cell, upwards=True):
+        for vertex in self.levels.at_level[level]:
+            if self.vertices[vertex] and self.levels.sees(vertex, cell, upwards=True):
                 x = min(max(self.slabs.x[vertex], cell.floor[0]), cell.floor[1])
                 places.append((x, x))
         if self._feeds(cell.left, cell, feet[0]):
@@ -284,7 +245,7 @@ class _Propagation:
             if parts and self.slides[edge]:
                 parts = [(min(low for low, _ in parts), top)]
         for low, high in parts:
-            ends = (self._distance(edge, low), self._distance(edge, high))
+            ends = (self.levels.distance(edge, low), self.levels.distance(edge, high))
             self.edges[edge].append((min(ends), max(ends)))
         return any(high >= top - self.tolerance for _, high in parts)
 
@@ -295,8 +256,8 @@ class _Propagation:
         start, end = cell.floor[side], cell.ceiling[side]
         parts: list[Span] = []
         for low, high in sources:
-            after = _where_positive(start - low, end - low + reach, self.tolerance)
-            before = _where_positive(high - start, high - end + reach, self.tolerance)
+            after = where_positive(start - low, end - low + reach, self.tolerance)
+            before = where_positive(high - start, high - end + reach, self.tolerance)
             begin, stop = max(after[0], before[0]), min(after[1], before[1])
             if begin <= stop:
                 parts.append((cell.bottom + begin * height, cell.bottom + stop * height))
@@ -319,34 +280,7 @@ class _Propagation:
 
     def _in_target(self, edge: int, cell: Cell) -> bool:
         middle = 0.5 * (cell.bottom + cell.top)
-        return not self.open[edge] and self.target.has(edge, self._distance(edge, middle))
-
-    def _distance(self, edge: int, height: float) -> float:
-        """How far along an edge it is at a height."""
-        heights, level = self.slabs.heights, self.slabs.level
-        start, end = heights[level[edge]], heights[level[self.next[edge]]]
-        return self.length[edge] * (height - start) / (end - start)
-
-    def _sees(self, vertex: int, cell: Cell, upwards: bool) -> bool:
-        """Whether a cell above or below a vertex lies in its wedge of free space, touching it."""
-        here = cell.floor if upwards else cell.ceiling
-        x = self.slabs.x[vertex]
-        if not near(x, *here, self.tolerance):
-            return False
-        middle = 0.25 * (sum(cell.floor) + sum(cell.ceiling))
-        rise = 0.5 * (cell.top - cell.bottom)
-        towards = math.atan2(rise if upwards else -rise, middle - x)
-        first = self._angle(vertex, self.next[vertex])
-        span = (self._angle(vertex, self.previous[vertex]) - first) % math.tau
-        return (towards - first) % math.tau < span
-
-    def _angle(self, vertex: int, other: int) -> float:
-        """The angle at which one vertex sees another, in the turned plane."""
-        slabs = self.slabs
-        return math.atan2(
-            slabs.heights[slabs.level[other]] - slabs.heights[slabs.level[vertex]],
-            slabs.x[other] - slabs.x[vertex],
-        )
+        return not self.open[edge] and self.target.has(edge, self.levels.distance(edge, middle))
 
 
 def merged(spans: Iterable[Span]) -> tuple[Span, ...]:
@@ -358,17 +292,3 @@ def merged(spans: Iterable[Span]) -> tuple[Span, ...]:
         else:
             union.append((low, high))
     return tuple(union)
-
-
-def near(x: float, low: float, high: float, tolerance: float) -> bool:
-    """Whether `x` lies in an interval, ties included."""
-    return low - tolerance <= x <= high + tolerance
-
-
-def _where_positive(first: float, last: float, tolerance: float) -> Span:
-    """Where on [0, 1] the linear function with these values at its ends is not negative."""
-    first = 0.0 if abs(first) <= tolerance else first
-    last = 0.0 if abs(last) <= tolerance else last
-    if first >= 0.0:
-        return (0.0, 1.0 if last >= 0.0 else first / (first - last))
-    return (1.0, 0.0) if last < 0.0 else (first / (first - last), 1.0)

@@ -26,12 +26,20 @@ class Features:
     slides : (n,) some `v*` slides along edge `i`; downhill, where the edge does not keep.
     leaves : (n,) some `v*` leaves edge `i`.
     keeps_vertex : (n,) the same as `keeps` for vertex `i`.
+    forward, backward : (n,) some `v*` slides along edge `i` to its end, to its start.
+    surely, surely_vertex : (n,) edge `i`, vertex `i` holds every `v*`.
+    slope : (n,) angle(nu, -v) of edge `i`, radians.
     """
 
     keeps: Bools
     slides: Bools
     leaves: Bools
     keeps_vertex: Bools
+    forward: Bools
+    backward: Bools
+    surely: Bools
+    surely_vertex: Bools
+    slope: Floats
 
 
 def features_of(
@@ -42,7 +50,9 @@ def features_of(
     With `b = |angle(nu, -v)|`: an edge may stick iff `b <= phi + theta`; if it may not, it may
     slide iff `b < pi/2 + theta`, and may leave iff `b > pi/2 - theta`. A concave vertex may stick
     iff `-v*` can lie in the hull of its edges' friction cones, a convex one iff an edge of it may.
-    Where an open side begins or ends, the robot has escaped.
+    Where an open side begins or ends, the robot has escaped. With `b` signed, some `v*` slides to
+    the end of the edge iff `[b - theta, b + theta]` meets `[phi, pi/2]`, to its start iff it meets
+    `[-pi/2, -phi]`: free space is on the left.
 
     Parameters
     ----------
@@ -64,7 +74,16 @@ def features_of(
     turn = _wrapped(tilt - tilt[before])  # to the left where the vertex is concave
     middle = _wrapped(tilt[before] + 0.5 * turn)
     caught = (turn > 0.0) & (np.abs(middle) <= 0.5 * turn + friction + slack)
+    beta = -tilt
+    held = ~contact.open & (np.abs(tilt) <= friction - control - tolerance)
+    hull = (turn > 0.0) & (np.abs(middle) <= 0.5 * turn + friction - control - tolerance)
+    hull &= ~(contact.open | contact.open[before])
     return Features(
+        forward=~contact.open & (beta + slack > friction) & (beta - slack < 0.5 * math.pi),
+        backward=~contact.open & (-beta + slack > friction) & (-beta - slack < 0.5 * math.pi),
+        surely=held,
+        surely_vertex=hull | (held & held[before]),
+        slope=beta,
         keeps=keeps,
         slides=np.abs(tilt) < 0.5 * math.pi + slack,
         leaves=np.abs(tilt) > 0.5 * math.pi - slack,

@@ -14,8 +14,9 @@ from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry import area as areas
 from preimage.geometry.area import Area
-from preimage.verification.avoidable import Avoidable, avoidable_set, near
+from preimage.verification.avoidable import Avoidable, avoidable_set
 from preimage.verification.features import features_of
+from preimage.verification.levels import near
 from preimage.verification.slabs import Cell, Slabs, Span, cut
 
 SLIVER = 8.0

@@ -12,6 +12,7 @@ from preimage.configuration.contact import ContactSpace
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry.angles import unit
+from preimage.geometry.area import Area
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -89,6 +90,7 @@ class Slabs:
     heights : the levels between the slabs, ascending; slab `k` lies between `k` and `k + 1`.
     cells : for each slab its trapezoids of free space, from left to right.
     x, level : for each vertex of contact space its place on a level, and which level.
+    starts : for each slab the trapezoids of the start's area, from left to right.
     """
 
     frame: Frame
@@ -96,6 +98,7 @@ class Slabs:
     cells: tuple[tuple[Cell, ...], ...]
     x: tuple[float, ...]
     level: tuple[int, ...]
+    starts: tuple[tuple[Cell, ...], ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -116,13 +119,19 @@ class _Lines:
     high_level: Ints
 
 
-def cut(space: ConfigurationSpace, target: Region, direction: float) -> Slabs:
+def cut(
+    space: ConfigurationSpace, target: Region, direction: float, start: Area | None = None
+) -> Slabs:
     """Cut free space across `direction` at the heights of all vertices.
 
     These are the vertices of contact space, those of the target's area, the ends of the target's
     intervals on edges, and the places where the target's border meets a boundary edge. So no two
     borders cross within a slab, and each edge is in the target throughout the slab or nowhere.
     Heights within the tolerance of each other are one.
+
+    Parameters
+    ----------
+    start : another area, cut into trapezoids of its own at the same heights.
     """
     contact, tolerance = space.contact, space.tolerance.length
     frame = Frame.of(direction)
@@ -131,10 +140,26 @@ def cut(space: ConfigurationSpace, target: Region, direction: float) -> Slabs:
     border_starts, border_ends = (frame.turned(points) for points in target.area.segments)
     marks = frame.turned(_interval_ends(contact, target))
     crossings = _crossings(starts, ends, border_starts, border_ends)
+    other_starts, other_ends = (frame.turned(points) for points in (start or Area.empty()).segments)
+    both = np.concatenate((starts, border_starts)), np.concatenate((ends, border_ends))
+    more = _crossings(*both, other_starts, other_ends)
     heights, levels = _levels(
-        (starts[:, 1], border_starts[:, 1], border_ends[:, 1], marks[:, 1], crossings), tolerance
+        (
+            starts[:, 1],
+            border_starts[:, 1],
+            border_ends[:, 1],
+            other_starts[:, 1],
+            other_ends[:, 1],
+            marks[:, 1],
+            crossings,
+            more,
+        ),
+        tolerance,
     )
     level = levels[0]
+    others = _lines(
+        np.zeros(len(other_starts), dtype=np.int64), other_starts, other_ends, levels[3], levels[4]
+    )
     lines = _joined(
         _lines(np.arange(len(contact)), starts, ends, level, level[contact.next]),
         _lines(
@@ -147,6 +172,9 @@ def cut(space: ConfigurationSpace, target: Region, direction: float) -> Slabs:
         cells=tuple(_cells(lines, heights, slab, tolerance) for slab in range(len(heights) - 1)),
         x=tuple(starts[:, 0].tolist()),
         level=tuple(level.tolist()),
+        starts=tuple(_cells(others, heights, slab, tolerance) for slab in range(len(heights) - 1))
+        if len(other_starts)
+        else ((),) * (len(heights) - 1),
     )
 
 

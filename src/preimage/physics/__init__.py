@@ -1,0 +1,1 @@
+"""Plans carried out in an engine that nobody here wrote: MuJoCo (theory 2, 3)."""

@@ -65,7 +65,7 @@ def test_a_run_has_a_panel_for_each_motion_with_its_way(sound: Report) -> None:
         names = {str(a.get_label()) for a in axes.get_children()}
         assert {"begin", "end", "measured", "direction"} <= names
         assert any(name.startswith("target") for name in names)
-    assert "force" in {str(a.get_label()) for a in drawn.axes[1].get_children()}
+    assert {"force", "force-cone"} <= {str(a.get_label()) for a in drawn.axes[1].get_children()}
     assert trace.control in str(drawn.get_label())
     words = {text.get_text() for text in drawn.legends[0].get_texts()}
     assert {"way of a run", "position as measured", "force as measured"} <= words
@@ -155,6 +155,27 @@ def test_a_gif_moves(sound: Report, tmp_path: Path) -> None:
         film.seek(film.n_frames - 1)  # type: ignore[attr-defined]
         last = np.array(film.convert("RGB"))
     assert np.any(first != last)
+
+
+def test_the_colours_of_every_motion_are_kept(sound: Report, tmp_path: Path) -> None:
+    path, trace = tmp_path / "run.gif", one(sound)
+    animate(trace, path, **SHORT)
+    frames = frames_of(trace, FilmOptions(**SHORT))  # type: ignore[arg-type]
+    pixels = list(animation.pixels_of(trace, frames, FilmOptions(**SHORT)))  # type: ignore[arg-type]
+    with Image.open(path) as film:
+        for place in (0, len(frames) - 1):
+            film.seek(min(place, film.n_frames - 1))  # type: ignore[attr-defined]
+            shown = np.array(film.convert("RGB")).astype(int)
+            off = np.abs(shown - pixels[place]).max(axis=2)
+            assert np.mean(off > 24) < 0.02
+
+
+def test_braces_in_a_name_are_text(sound: Report, tmp_path: Path) -> None:
+    trace = one(sound)
+    task = replace(trace.strategy.task, name="{{run}}")
+    trace = replace(trace, strategy=replace(trace.strategy, task=task))
+    animate(trace, tmp_path / "run.html")
+    assert "<title>{{run}}" in (tmp_path / "run.html").read_text(encoding="utf-8")
 
 
 def test_an_mp4_can_be_played(sound: Report, tmp_path: Path) -> None:

@@ -11,6 +11,9 @@ from preimage.cli.progress import ProgressLine
 
 MOST_RUNS = 1_000_000
 
+RUNS = 10
+"""Runs from each region under each pair of adversaries, unless said otherwise."""
+
 
 @click.command(
     "verify",
@@ -25,10 +28,10 @@ MOST_RUNS = 1_000_000
 @click.option(
     "--runs",
     type=click.IntRange(0, MOST_RUNS),
-    default=0,
+    default=RUNS,
     show_default=True,
     metavar="N",
-    help="Simulated runs besides, under each pair of adversaries.",
+    help="Simulated runs besides, from each region under each pair of adversaries; 0 for none.",
 )
 @click.option(
     "--seed", type=click.IntRange(0, 2**63 - 1), default=0, metavar="S", help="Of the runs."

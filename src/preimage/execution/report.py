@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from preimage.display import Shown
 from preimage.execution.trace import Outcome, Trace
@@ -46,11 +46,11 @@ class Report(Shown):
     samples : some runs of each pair, for pictures.
     """
 
-    strategy: Strategy
-    tallies: tuple[Tally, ...]
+    strategy: Strategy = field(repr=False)
+    tallies: tuple[Tally, ...] = field(repr=False)
     failure: Trace | None
     slowest: Trace | None
-    samples: tuple[Trace, ...]
+    samples: tuple[Trace, ...] = field(repr=False)
     seconds: float = 0.0
 
     @property

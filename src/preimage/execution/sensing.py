@@ -11,6 +11,7 @@ from preimage.configuration.contact import Floats
 from preimage.execution.contact_forces import contact_forces
 from preimage.execution.nearest import nearest
 from preimage.execution.situation import Situation
+from preimage.geometry.angles import wrap
 
 INSIDE = 1.0 - 1e-9
 """The errors' bounds are open: nature stays this far within them."""
@@ -127,7 +128,8 @@ def read(sensing: Sensing, now: Situation, angle: Floats) -> tuple[Floats, Float
     low, high = senses.force_thresholds
     felt = magnitude > (high if sensing.zero else low)
     tilt = np.clip(sensing.tilt(now), -1.0, 1.0)
-    forces = np.where(felt, direction + INSIDE * senses.force_angle * tilt, np.nan)
+    measured = wrap(direction + INSIDE * senses.force_angle * tilt)
+    forces = np.where(felt, measured, np.nan)
     return positions, forces
 
 

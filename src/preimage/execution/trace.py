@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from preimage.configuration.contact import Floats, Ints
@@ -61,8 +61,8 @@ class Trace(Shown):
     words : what went wrong, if anything did.
     """
 
-    strategy: Strategy
-    legs: tuple[Leg, ...]
+    strategy: Strategy = field(repr=False)
+    legs: tuple[Leg, ...] = field(repr=False)
     outcome: Outcome
     control: str = ""
     sensing: str = ""

@@ -7,7 +7,7 @@ import io
 import math
 import os
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from enum import Enum
 from importlib.util import find_spec
 from pathlib import Path
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Pixels = NDArray[np.uint8]
+Floats = NDArray[np.float64]
 
 
 class FilmFormat(Enum):
@@ -38,8 +39,11 @@ class FilmFormat(Enum):
     HTML = "html"
 
 
-COLORS = 64
-"""Colours of a GIF: enough for flat pictures, and half the size of 256."""
+COLORS = 128
+"""Colours of a GIF: enough for flat pictures, and smaller than with 256."""
+
+MOST_ENDS = 12
+"""So many frames are looked at for them."""
 
 
 def film_format_of(path: str | os.PathLike[str]) -> FilmFormat:
@@ -100,7 +104,8 @@ def animate(subject: Trace | Report, path: str | os.PathLike[str], **options: An
 def _gif(trace: Trace, frames: list[Frame], options: FilmOptions) -> bytes:
     image = importlib.import_module("PIL.Image")
     pictures = [image.fromarray(pixels) for pixels in pixels_of(trace, frames, options)]
-    palette = pictures[len(pictures) // 2].quantize(COLORS)
+    extract = image.fromarray(_extract(frames, pictures))
+    palette = extract.quantize(COLORS)
     flat = [picture.quantize(palette=palette, dither=0) for picture in pictures]
     stay = [1000.0 / options.rate] * (len(flat) - 1) + [1000.0 * max(options.rest, 0.1)]
     stream = io.BytesIO()
@@ -109,6 +114,13 @@ def _gif(trace: Trace, frames: list[Frame], options: FilmOptions) -> bytes:
         duration=[round(time) for time in stay],
     )  # fmt: skip
     return stream.getvalue()
+
+
+def _extract(frames: list[Frame], pictures: Sequence[Any]) -> Pixels:
+    """The ends of all motions below each other: every colour of the film is in them."""
+    ends = [place for place, frame in enumerate(frames) if frame.ended]
+    some = ends[:: max(1, -(-len(ends) // MOST_ENDS))]
+    return np.concatenate([np.asarray(pictures[place]) for place in sorted({*some, ends[-1]})])
 
 
 def _mp4(trace: Trace, frames: list[Frame], options: FilmOptions) -> bytes:
@@ -167,10 +179,11 @@ class _Moving:
     """What moves in a figure, drawn on what does not."""
 
     def __init__(self, figure: Figure, trace: Trace) -> None:
+        from matplotlib.lines import Line2D
         from matplotlib.patches import Circle, Polygon
         from matplotlib.text import Text
 
-        from preimage.rendering.style import INK, ORANGE, PAPER, VERMILLION
+        from preimage.rendering.style import BLUE, INK, ORANGE, PAPER, VERMILLION
 
         self.axes, self.canvas = figure.axes[0], figure.canvas
         task = trace.strategy.task
@@ -193,7 +206,9 @@ class _Moving:
             color=VERMILLION if failed else INK, zorder=10.0,
         )  # fmt: skip
         self.words.set_bbox({"facecolor": PAPER, "alpha": 0.85, "edgecolor": "none", "pad": 1.5})
-        self.parts = [self.disc, self.body, self.dot, self.push, self.words]
+        self.way = Line2D([], [], color=VERMILLION if failed else BLUE, lw=1.4, zorder=8.2)
+        self.passed: list[Floats] = []
+        self.parts = [self.way, self.body, self.disc, self.dot, self.push, self.words]
         for part in self.parts:
             part.set_animated(True)
             self.axes.add_artist(part)
@@ -205,6 +220,8 @@ class _Moving:
         from preimage.rendering.glyphs import arrow
 
         place = np.array(frame.place)
+        self.passed.append(place)
+        self.way.set_data(np.array(self.passed).T)
         self.dot.set_center(frame.place)
         self.body.set_visible(self.shape is not None)
         if self.shape is not None:

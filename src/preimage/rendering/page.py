@@ -23,9 +23,6 @@ from preimage.task.degrees import to_degrees
 
 Data = dict[str, Any]
 
-DIGITS = 5
-"""Decimal places of coordinates, in windows: a thousandth of a dot."""
-
 
 def page(trace: Trace, frames: list[Frame], options: FilmOptions) -> str:
     """The text of the page; it needs no other file and no network."""
@@ -69,7 +66,8 @@ def page(trace: Trace, frames: list[Frame], options: FilmOptions) -> str:
     text = files("preimage.rendering").joinpath("player.html").read_text(encoding="utf-8")
     # no text of the task's may end the script
     run = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
-    return text.replace("{{title}}", html.escape(title)).replace("{{run}}", run)
+    # the title last: braces in a task's name are no place for the run
+    return text.replace("{{run}}", run).replace("{{title}}", html.escape(title))
 
 
 def _target(trace: Trace, number: int) -> Region:

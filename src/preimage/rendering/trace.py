@@ -9,9 +9,10 @@ from functools import partial
 
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, Polygon, Wedge
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
@@ -26,7 +27,8 @@ from preimage.rendering.panel import Panel
 from preimage.rendering.scene import Scene, draw_scene
 from preimage.rendering.sheet import Plate, compose
 from preimage.rendering.strategy import degrees, in_order
-from preimage.rendering.style import BLUE, MARKS, PAPER, VERMILLION, Layer
+from preimage.rendering.style import BLUE, MARKS, ORANGE, PAPER, VERMILLION, Layer
+from preimage.task.uncertainty import Uncertainty
 
 Floats = NDArray[np.float64]
 
@@ -38,6 +40,9 @@ FEW_RUNS = 6
 
 MOST_DISCS = 400.0
 """Points: larger discs of the position error would hide the scene."""
+
+WAY_COST, MANY_WAYS_COST = 12.0, 0.3
+"""What it costs to write over a cell of a way; many ways leave no room."""
 
 FORCE_LENGTH = 20.0
 """Points: how long the arrow of a measured force is."""
@@ -116,8 +121,9 @@ def _plate(
             draw_region(panel, Layer.TARGET, motion.target)
             quiet = Region(region.region.area, motion.target.contact)
             draw_region(panel, Layer.FOUND, quiet, number=number)
-        draw_legs(panel, legs, scene.task.uncertainty.position if scene.task else 0.0)
-        draw_direction(panel, direction, scene.task.uncertainty.control if scene.task else None)
+        errors = subject.strategy.task.uncertainty
+        draw_legs(panel, legs, errors)
+        draw_direction(panel, direction, errors.control)
 
     heading = f"Motion {place + 1} of {count}: {degrees(direction)}"
     return Plate(f"motion-{place + 1}", heading, _detail(legs), paint, compass=True)
@@ -132,12 +138,12 @@ def _detail(legs: Sequence[tuple[Trace, Leg]]) -> str:
     return "ended by " + ", ".join(f"{kind} ({words.count(kind)})" for kind in kinds)
 
 
-def draw_legs(panel: Panel, legs: Sequence[tuple[Trace, Leg]], error: float) -> None:
+def draw_legs(panel: Panel, legs: Sequence[tuple[Trace, Leg]], errors: Uncertainty) -> None:
     """Draw the ways of runs in one motion, failures on top.
 
     Parameters
     ----------
-    error : of a measured position; of few runs its disc is drawn at the end of the motion.
+    errors : bounds on them; of few runs the readings at the end of the motion are drawn too.
     """
     good = [leg for trace, leg in legs if trace.outcome is Outcome.SUCCESS]
     bad = [(trace, leg) for trace, leg in legs if trace.outcome is not Outcome.SUCCESS]
@@ -155,7 +161,7 @@ def draw_legs(panel: Panel, legs: Sequence[tuple[Trace, Leg]], error: float) -> 
                 _draw_outcome(panel, trace, leg)
     if len(legs) <= FEW_RUNS:
         for _, leg in legs:
-            draw_reading(panel, leg, len(leg.times) - 1, error)
+            draw_reading(panel, leg, len(leg.times) - 1, errors)
 
 
 def _draw_ways(
@@ -177,8 +183,9 @@ def _draw_ways(
         zorder=order,
     )
     panel.add(ways, layer)
+    cost = WAY_COST if len(legs) <= FEW_RUNS else MANY_WAYS_COST
     for leg in legs:
-        panel.lattice.cost += 0.3 * panel.lattice.along(leg.places[:-1], leg.places[1:])
+        panel.lattice.cost += cost * panel.lattice.along(leg.places[:-1], leg.places[1:])
 
 
 def _draw_marks(panel: Panel, layer: Layer, places: Sequence[Floats], count: int) -> None:
@@ -197,6 +204,10 @@ def _draw_marks(panel: Panel, layer: Layer, places: Sequence[Floats], count: int
         zorder=8.0,
     )
     panel.add(marks, layer)
+    if count <= FEW_RUNS:
+        side = 5.0 * panel.unit
+        for x, y in points.tolist():
+            panel.lattice.take(x, y, side, side)
 
 
 def _draw_outcome(panel: Panel, trace: Trace, leg: Leg) -> None:
@@ -221,8 +232,12 @@ def _draw_outcome(panel: Panel, trace: Trace, leg: Leg) -> None:
     panel.lattice.take(*place, wide, high)
 
 
-def draw_reading(panel: Panel, leg: Leg, instant: int, error: float) -> None:
-    """Draw what was read at an instant: the position with its error's disc, and the force."""
+def draw_reading(panel: Panel, leg: Leg, instant: int, errors: Uncertainty) -> None:
+    """Draw what was read at an instant: the position and the force, with what bounds their errors.
+
+    The real force pushes from within the cone behind the arrow.
+    """
+    error = errors.position
     place, measured = leg.places[instant], leg.measured[instant]
     if np.all(np.isfinite(measured)):
         shape, color = MARKS[Layer.MEASURED]
@@ -241,6 +256,14 @@ def draw_reading(panel: Panel, leg: Leg, instant: int, error: float) -> None:
     if math.isfinite(force):
         along = np.array(unit(force))
         tail = place - FORCE_LENGTH * panel.unit * along
+        back, half = math.degrees(force) + 180.0, math.degrees(errors.force_angle)
+        if half > 0.0:
+            cone = Wedge(
+                (float(place[0]), float(place[1])), FORCE_LENGTH * panel.unit, back - half,
+                back + half, facecolor=to_rgba(ORANGE, 0.35), edgecolor=ORANGE, linewidth=0.6,
+                zorder=8.45, clip_on=False,
+            )  # fmt: skip
+            panel.add(cone, Layer.FORCE_CONE)
         head = (5.0 * panel.unit, 1.9 * panel.unit)
         push = Polygon(
             arrow(tail, place, head, 1.1 * panel.unit),

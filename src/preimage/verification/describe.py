@@ -34,10 +34,11 @@ def describe_verification(verification: Verification) -> str:
         lines += ["", *_motion(motion, strategy)]
     if verification.report is not None:
         report = verification.report
-        pairs = count(len(report.tallies), "pair")
+        pairs = count(len({(one.control, one.sensing) for one in report.tallies}), "pair")
         lines += [
             "",
-            f"runs         {report.runs} under {pairs} of adversaries, {report.failures} failed",
+            f"runs         {report.runs:,} from all regions under {pairs} of adversaries,"
+            f" {report.failures:,} failed",
         ]
     return "\n".join(lines)
 

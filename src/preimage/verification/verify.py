@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,6 +15,7 @@ from preimage.configuration.goals import goal_region
 from preimage.configuration.region import Region
 from preimage.configuration.start import Start, StartKind, covered, start_region
 from preimage.execution.report import Report
+from preimage.execution.runs import RunOptions, run
 from preimage.geometry import area as areas
 from preimage.geometry import inflate
 from preimage.geometry.area import Area
@@ -35,11 +38,14 @@ from preimage.verification.verdict import (
 
 Progress = Callable[[str], None]
 
+RUNS = 10
+"""Runs from each region under each pair of adversaries, unless said otherwise."""
+
 
 def verify(
     strategy: Strategy,
     *,
-    runs: int = 0,
+    runs: int = RUNS,
     seed: int = 0,
     maximality: bool = False,
     progress: Progress | None = None,
@@ -52,7 +58,8 @@ def verify(
 
     Parameters
     ----------
-    runs : how many adversarial runs are made besides, under each pair of adversaries.
+    runs : how many adversarial runs are made besides, from the region of each motion under each
+        pair of adversaries.
     seed : of the runs.
     maximality : compare each region with the maximal backprojection of its target, too.
     progress : told what is looked at.
@@ -88,7 +95,7 @@ def verify(
     report = None
     if runs > 0 and strategy.status is Status.SOLVED:
         tell("runs")
-        report = _runs(strategy, runs, seed)
+        report = _runs(strategy, used, RunOptions(runs=runs, seed=seed))
         if report.failure is not None:
             words = f"in a run: {report.failure.words or report.failure.outcome.value}"
             findings.append(Finding(Fault.RUNS, Verdict.REFUTED, words, report.failure))
@@ -248,12 +255,21 @@ def _maximality(case: Case) -> Maximality:
     return Maximality(more, missing.total_length, less, excess.total_length, tuple(vertices))
 
 
-def _runs(strategy: Strategy, runs: int, seed: int) -> Report:
-    """Runs from everywhere: from all of the region that the plan begins in, if that is one."""
-    from preimage.execution.runs import RunOptions, run
-
-    chosen = [strategy.region(number) for number in strategy.start]
-    start = None
-    if len(chosen) == 1 and chosen[0].motion is not None:
-        start = Start.anywhere_in(chosen[0].region)
-    return run(strategy, start=start, options=RunOptions(runs=runs, seed=seed))
+def _runs(strategy: Strategy, regions: tuple[StrategyRegion, ...], options: RunOptions) -> Report:
+    """Runs from everywhere: of the rest of the plan, from all over the region of each motion."""
+    reports = []
+    for region in regions:
+        rest = replace(strategy, start=(region.id,))
+        with contextlib.suppress(ValueError):  # too thin a region to start in
+            start = Start.anywhere_in(region.region)
+            reports.append(run(rest, start=start, options=options))
+    failures = [report.failure for report in reports if report.failure is not None]
+    slowest = [report.slowest for report in reports if report.slowest is not None]
+    return Report(
+        strategy,
+        tuple(tally for report in reports for tally in report.tallies),
+        failures[0] if failures else None,
+        max(slowest, key=lambda trace: trace.time, default=None),
+        tuple(trace for report in reports for trace in report.samples),
+        sum(report.seconds for report in reports),
+    )

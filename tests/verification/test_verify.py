@@ -32,6 +32,7 @@ from preimage.task.goal import Goal
 from preimage.task.initial import InitialPoint, InitialPolygon
 from preimage.task.options import Method, StrategyKind
 from preimage.task.parse import parse_task
+from preimage.verification import faults
 from preimage.verification import verify as verification
 from preimage.verification.forward import forward_projection
 from preimage.verification.trajectory import admissible
@@ -319,6 +320,58 @@ def test_a_domain_that_is_too_small() -> None:
     assert verify(informed(0.999)).verdict is not Verdict.PROVEN
 
 
+def test_a_domain_without_free_space() -> None:
+    """Who flies to the floor gives readings that nothing in the domain gives."""
+    strategy = planned("flat-floor", Method.KERNEL)
+    walls = Region(Area.empty(), ContactSet.whole(strategy.space.contact))
+    blind = changed(strategy, 1, termination=(ReadingCondition(walls),))
+    refuted(blind, Fault.DOMAIN)
+    refuted(with_errors(blind, control=0.0), Fault.DOMAIN)
+
+
+def test_what_cannot_be_shown_is_not_proven_either(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(faults, "admissible", lambda _trace, _slack: False)
+    found = verify(informed(0.5))
+    assert found.verdict is Verdict.UNPROVEN
+    assert [one.fault for one in found.every] == [Fault.DOMAIN]
+
+
+def test_a_domain_without_the_line_along_which_a_tip_is_left() -> None:
+    """With perfect control a motion may take a line, which has no area."""
+    task = parse_task(
+        {
+            "version": 1,
+            "window": [-10, -6, 10, 14],
+            "obstacles": [
+                {"polygon": [(-10, 0), (10, 0), (10, -6), (-10, -6)]},
+                {"polygon": [(0, 4), (1, 6), (-1, 6)]},
+            ],
+            "uncertainty": {
+                "control": 0,
+                "position": 0.1,
+                "force": {"angle": 5, "threshold": 0.05},
+            },
+            "friction": 20,
+            "initial": {"point": [0, 4]},
+            "goal": {"edges": [[[-2, 0], [2, 0]]]},
+            "planner": {"directions": [270]},
+        }
+    )
+    strategy = plan(task)
+    assert strategy.status is Status.SOLVED
+    space = strategy.space
+    corners = space.contact.vertices
+    tip = corners[np.hypot(*(space.contact.points[corners] - (0.0, 4.0)).T) < 1e-6]
+    assert len(tip) == 1
+    start = Region(Area.empty(), ContactSet.of([], [], [], tip.tolist(), space.tolerance.length))
+    goal = strategy.region(0).region
+    for area, holds in ((Area.empty(), False), (Area.box(-0.1, 0.0, 0.1, 4.0), True)):
+        domain = Region(area, contact_set.union(goal.contact, start.contact, 1e-9))
+        reading = (ReadingCondition(domain),)
+        found = verify(changed(strategy, 1, start, target=goal, termination=reading))
+        assert (found.verdict is Verdict.PROVEN) == holds
+
+
 def test_an_edge_that_may_stick_just_outside_the_goal() -> None:
     """A funnel leads to its bottom if its walls let slide; with more friction they hold."""
     solid = [(-10, 6), (-6, 6), (0, 0), (6, 6), (10, 6), (10, -6), (-10, -6)]
@@ -453,3 +506,38 @@ def test_each_piece_of_a_target_must_be_certain_for_one_goal() -> None:
     assert found.verdict is Verdict.REFUTED
     (motion,) = [one for one in found.motions if one.region == first]
     assert motion.uncertain
+
+
+def test_a_domain_may_not_hide_one_goal_from_another() -> None:
+    """On the right of the floor nothing of the domain is consistent: so the left is told."""
+    strategy = planned("flat-floor", Method.KERNEL)
+    near, goal, one = strategy.space.tolerance.length, strategy.region(0), strategy.region(1)
+    (edge,) = goal.region.contact.edge.tolist()
+
+    def part(low: float, high: float) -> Region:
+        return Region(Area.empty(), ContactSet.of([edge], [low], [high], [], near))
+
+    left, right = part(18.0, 20.5), part(20.0, 22.0)
+    valid = strategy.space.valid
+    hidden = part(20.5, 22.0).contact
+    domain = Region(valid.area, contact_set.difference(valid.contact, hidden, near))
+    for condition, holds in ((ReadingCondition(), True), (ReadingCondition(domain), False)):
+        assert one.motion is not None
+        regions = (
+            replace(goal, region=left),
+            replace(
+                one, rank=2, motion=replace(one.motion, goals=(0, 2), termination=(condition,))
+            ),
+            replace(one, id=2, region=right),
+        )
+        made = replace(strategy, regions=regions)
+        motion = next(found for found in verify(made).motions if found.region == 1)
+        assert [found.fault for found in motion.findings] == ([] if holds else [Fault.DOMAIN])
+        assert holds or motion.verdict is Verdict.REFUTED
+
+
+def test_a_target_that_claims_too_much_is_no_reason_for_runs_to_fail() -> None:
+    """The sensors are looked at where the part that is certain begins."""
+    strategy = planned("flat-floor", Method.KERNEL)
+    found = verification.verify(changed(strategy, 1, target=strategy.space.valid), runs=2)
+    assert found.verdict is Verdict.PROVEN

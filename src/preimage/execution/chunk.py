@@ -11,6 +11,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from preimage.configuration.contact import Bools, Floats, Ints
+from preimage.configuration.region import Region
 from preimage.execution.control import Control
 from preimage.execution.motion import Ended, MotionRun, carry_out, recognised
 from preimage.execution.nearest import outline
@@ -37,6 +38,8 @@ WORDS = {
 OUTCOMES = tuple(Outcome)
 """Outcomes by number."""
 
+NO_MARKS: Mapping[int, Region] = {}
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
@@ -47,8 +50,13 @@ class Scene:
     conditions: Mapping[int, Conditions]
 
     @classmethod
-    def of(cls, strategy: Strategy) -> Self:
-        """Compile a plan."""
+    def of(cls, strategy: Strategy, marks: Mapping[int, Region] = NO_MARKS) -> Self:
+        """Compile a plan.
+
+        Parameters
+        ----------
+        marks : by region id, the borders at which its motion is looked at, if not its target's.
+        """
         program = compiled(strategy)
         space, task = strategy.space, strategy.task
         conditions = {}
@@ -57,7 +65,7 @@ class Scene:
             assert motion is not None
             goals = [strategy.region(goal).region for goal in motion.goals]
             conditions[number] = Conditions(
-                Simulator.of(space, task.friction, task.sliding, motion.target),
+                Simulator.of(space, task.friction, task.sliding, marks.get(number, motion.target)),
                 motion.direction,
                 task.uncertainty,
                 motion.target,

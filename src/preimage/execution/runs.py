@@ -12,8 +12,9 @@ from zlib import crc32
 
 import numpy as np
 
+from preimage.configuration.region import Region
 from preimage.configuration.start import Start, start_region
-from preimage.execution.chunk import OUTCOMES, Chunk, Scene, carry_out_plan
+from preimage.execution.chunk import NO_MARKS, OUTCOMES, Chunk, Scene, carry_out_plan
 from preimage.execution.control import CONTROLS, Control
 from preimage.execution.report import Report, Tally
 from preimage.execution.sensing import SENSINGS, Sensing
@@ -61,6 +62,7 @@ def run(
     control: str | Sequence[str] | Mapping[str, Control] = "all",
     sensing: str | Sequence[str] | Mapping[str, Sensing] = "all",
     start: Start | None = None,
+    marks: Mapping[int, Region] = NO_MARKS,
     options: RunOptions = DEFAULT,
     progress: Progress | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -72,6 +74,8 @@ def run(
     control, sensing : names from `CONTROLS` and `SENSINGS`, `"all"`, or adversaries of one's own
         by name.
     start : where runs begin; the task's start by default.
+    marks : by region id, what its motion surely recognises, if that is less than its target: the
+        sensors are looked at where its borders are crossed.
     progress : told after each pair.
     cancelled : asked after each pair; then what was done so far is reported.
 
@@ -98,14 +102,14 @@ def run(
     collect = partial(_collected, options.runs * len(pairs), progress, cancelled)
     if options.workers > 1 and len(pairs) > 1:
         with ProcessPoolExecutor(
-            options.workers, initializer=_prepare, initargs=(strategy, start)
+            options.workers, initializer=_prepare, initargs=(strategy, start, marks)
         ) as pool:
             try:
                 found = collect(pool.map(work, pairs))
             finally:
                 pool.shutdown(cancel_futures=True)
     else:
-        _prepare(strategy, start)
+        _prepare(strategy, start, marks)
         found = collect(map(work, pairs))
     return _report(strategy, found, time.perf_counter() - began)
 
@@ -169,9 +173,9 @@ def _collected(
 _prepared: list[tuple[Scene, Start]] = []
 
 
-def _prepare(strategy: Strategy, start: Start) -> None:
+def _prepare(strategy: Strategy, start: Start, marks: Mapping[int, Region]) -> None:
     """Compile the plan, once in each process."""
-    _prepared[:] = [(Scene.of(strategy), start)]
+    _prepared[:] = [(Scene.of(strategy, marks), start)]
 
 
 def _pair(

@@ -52,7 +52,8 @@ def trace_figure(trace: Trace, options: PictureOptions) -> Figure:
     """The figure of one run: where it went in each motion, and what was read when that ended."""
     words = trace.words or trace.outcome.value
     name = trace.strategy.task.name.replace("$", r"\$")
-    title = f"{name}: run {trace.number} under {trace.control}+{trace.sensing}, {words}"
+    who = f"run {trace.number} under {trace.control}+{trace.sensing}"
+    title = f"{name}: {who if trace.control else 'a counter-example'}, {words}"
     return _figure(trace, [trace], title, options)
 
 
@@ -131,7 +132,7 @@ def _plate(
 
 def _detail(legs: Sequence[tuple[Trace, Leg]]) -> str:
     """How the motion was ended in these runs."""
-    words = [leg.ended_by or "nothing" for _, leg in legs]
+    words = [leg.ended_by or "no condition" for _, leg in legs]
     kinds = sorted(set(words), key=lambda word: (-words.count(word), word))
     if len(words) == 1:
         return f"ended by {kinds[0]} after {legs[0][1].times[-1] - legs[0][1].times[0]:.4g}"

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from preimage.configuration.space import ConfigurationSpace
 from preimage.execution.trace import Trace
 from preimage.strategy.strategy import Strategy
@@ -87,10 +89,12 @@ def _finding(finding: Finding) -> Iterator[str]:
 
 def _way(trace: Trace) -> Iterator[str]:
     space = trace.strategy.space
+    near = space.tolerance.length
     for leg in trace.legs:
         for index, feature in enumerate(leg.features.tolist()):
             word = ("from", "to")[index > 0]
-            yield f"    {word:5}{place(leg.places[index])}, {feature_words(feature, space)}"
+            at = np.where(np.abs(leg.places[index]) > near, leg.places[index], 0.0)
+            yield f"    {word:5}{place(at)}, {feature_words(feature, space)}"
 
 
 def _margins(margins: Margins, strategy: Strategy) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -13,12 +13,18 @@ from preimage.configuration.region import Region
 from preimage.execution.trace import Outcome, Trace
 from preimage.geometry import area as areas
 from preimage.geometry.area import Area
-from preimage.recognition.termination import ElapsedCondition, StickingCondition
+from preimage.recognition.termination import (
+    ElapsedCondition,
+    ReadingCondition,
+    StickingCondition,
+)
 from preimage.verification.distances import Point, apart
+from preimage.verification.flights import Strip
 from preimage.verification.paths import Stop
 from preimage.verification.proof import MARGIN, Case, depth, least_progress
 from preimage.verification.recognised import Elsewhere, blurred, elsewhere
-from preimage.verification.trajectory import admissible, feature_words, place_of, trace_of
+from preimage.verification.slabs import Cell
+from preimage.verification.trajectory import SHORT, admissible, feature_words, place_of, trace_of
 from preimage.verification.verdict import Fault, Finding, Verdict
 
 ANGLE = 1e-6
@@ -27,6 +33,9 @@ ANGLE = 1e-6
 
 MOST = 64
 """So many ways are looked at for a long one."""
+
+CORNERS = 12
+"""From about so many corners of an area, three at a time, a place well inside is found."""
 
 
 def faults(case: Case) -> Iterator[Finding]:
@@ -121,7 +130,11 @@ def _period(case: Case, condition: StickingCondition) -> Iterator[Finding]:
         return
     trace = _trace(case, stops, Outcome.WRONG, words)
     moved = _moved(trace, condition.period)
-    real = moved is not None and moved - 2.0 * position <= condition.distance
+    real = (
+        _possible(case, trace)
+        and moved is not None
+        and moved - 2.0 * position <= condition.distance
+    )
     verdict = Verdict.REFUTED if real else Verdict.UNPROVEN
     yield Finding(Fault.PERIOD, verdict, words, trace if real else None)
 
@@ -183,84 +196,100 @@ def _elapsed(case: Case, condition: ElapsedCondition) -> Iterator[Finding]:
 
 def _domain(case: Case, domain: Region) -> Iterator[Finding]:
     """`D` lies in the domain; else a place outside it is shown, at best one that is misread."""
-    places = _outside(case, domain)
-    if not places:
-        return
     found: Finding | None = None
-    for feature, place, stops in places:
-        reading = _misread(case, domain, feature, place)
+    for feature, place, stops in _outside(case, domain):
         where = f"at {at(place)} it is outside the domain of its reading condition"
+        if found is None:
+            found = Finding(Fault.DOMAIN, Verdict.UNPROVEN, where)
+        reading = _misread(case, feature, place) if stops else None
         if reading is None:
-            if found is None:
-                found = Finding(Fault.DOMAIN, Verdict.UNPROVEN, where)
             continue
-        q, force = reading
+        q, force, goal = reading
         said = "no force" if force is None else f"a force of {math.degrees(force) % 360.0:.4g}°"
-        words = f"{where}: reading {at(q)} and {said}, it is taken to be in the goal"
+        name = "the goal" if goal == 0 else f"region {goal}"
+        words = f"{where}: reading {at(q)} and {said}, it is taken to be in {name}"
         trace = _trace(case, stops, Outcome.WRONG, words)
-        if admissible(trace, ANGLE):
-            yield Finding(Fault.DOMAIN, Verdict.REFUTED, words, trace)
-            return
+        if _possible(case, trace):
+            found = Finding(Fault.DOMAIN, Verdict.REFUTED, words, trace)
+            break
     if found is not None:
         yield found
 
 
-def _outside(case: Case, domain: Region) -> list[tuple[int, Point, tuple[Stop, ...]]]:
-    """Places of `D` outside a domain and outside the goals: feature, place, way."""
+Somewhere = tuple[int, Point, tuple[Stop, ...]]
+"""A feature, a place on it, and a way there if one is found."""
+
+
+def _outside(case: Case, domain: Region) -> Iterator[Somewhere]:
+    """Places of `D` outside a domain and outside a goal that might be told there."""
     space, projection = case.strategy.space, case.projection
     count, slack = len(space.contact), MARGIN * space.tolerance.length
-    found: list[tuple[int, Point, tuple[Stop, ...]]] = []
-    left = contact_set.difference(projection.contact, case.stop.contact, slack)
-    left = contact_set.difference(left, domain.contact, slack)
-    for edge, low, high in zip(
-        left.edge.tolist(), left.low.tolist(), left.high.tolist(), strict=True
-    ):
-        stops = projection.ways.to_edge(edge, 0.5 * (low + high))
-        found.append((edge, _end(case, stops), stops))
-    for vertex in left.vertices.tolist():
-        stops = projection.ways.to_vertex(vertex)
-        found.append((count + vertex, _end(case, stops), stops))
+    beyond = contact_set.difference(projection.contact, domain.contact, slack)
+    rest = Area.empty()
     if not areas.is_subset(projection.area, domain.area, slack):
         rest = areas.regularised(areas.difference(projection.area, domain.area), slack)
-        for part in rest.parts:
-            place = _inside(part, slack)
-            way = projection.way_to(*place)
-            if way is not None:
-                found.append((2 * count, place, way))
-    goals = [case.strategy.region(goal).region for goal in case.motion.goals]
-    return [one for one in found if not any(_holds(case, goal, *one[:2]) for goal in goals)]
+    lines = [line for line in _lines(case) if not areas.is_subset(line, domain.area, slack)]
+    for number in case.motion.goals:
+        goal = case.strategy.region(number).region
+        left = contact_set.difference(beyond, goal.contact, slack)
+        for edge, low, high in zip(
+            left.edge.tolist(), left.low.tolist(), left.high.tolist(), strict=True
+        ):
+            stops = projection.ways.to_edge(edge, 0.5 * (low + high))
+            yield edge, _end(case, stops), stops
+        for vertex in left.vertices.tolist():
+            stops = projection.ways.to_vertex(vertex)
+            yield count + vertex, _end(case, stops), stops
+        for area in (rest, *lines):
+            if areas.is_subset(area, goal.area, slack):
+                continue
+            for part in areas.regularised(areas.difference(area, goal.area), slack).parts:
+                place = _inside(part, slack)
+                yield 2 * count, place, projection.way_to(*place) or ()
 
 
-def _holds(case: Case, goal: Region, feature: int, place: Point) -> bool:
-    contact = case.strategy.space.contact
-    count = len(contact)
-    if feature < count:
-        distance = math.dist(place, tuple(contact.points[feature].tolist()))
-        return goal.contact.contains(feature, distance, 0.0)
-    if feature < 2 * count:
-        return goal.contact.has_vertex(feature - count)
-    return goal.area.contains(*place)
+def _lines(case: Case) -> Iterator[Area]:
+    """What of `D` is a line in free space, up to rounding, as wide as can be told from nothing."""
+    projection, slack = case.projection, MARGIN * case.strategy.space.tolerance.length
+    for flight in projection.reached.flights:
+        for strip in flight.strips:
+            widest = max(high - low for low, high in zip(strip.left, strip.right, strict=True))
+            if widest > 2.0 * slack or strip.top - strip.bottom < SHORT * slack:
+                continue
+            corners = [
+                (x + side * 1.5 * slack, height)
+                for side, heights in (
+                    (-1.0, (strip.top, strip.bottom)),
+                    (1.0, (strip.bottom, strip.top)),
+                )
+                for height in heights
+                for x in [_middle(strip, flight.cell, height)]
+            ]
+            restored = projection.slabs.frame.restored(np.array(corners))
+            yield areas.intersection(Area.polygon(restored), case.strategy.space.free)
+
+
+def _middle(strip: Strip, cell: Cell, height: float) -> float:
+    """Where the middle of a strip's end is, within the cell."""
+    end = 0 if height == strip.top else 1
+    low, high = cell.width_at(height)
+    return 0.5 * (min(max(strip.left[end], low), high) + max(min(strip.right[end], high), low))
 
 
 def _inside(part: Area, margin: float) -> Point:
     """A point of an area, not on its border."""
     core = areas.shrunk(part, margin)
-    points = core.rings[0][:-1] if core.rings else part.rings[0][:-1]
-    best, depth_of = points[0], -1.0
-    for i in range(0, len(points), max(1, len(points) // 12)):
-        for j in range(i):
-            middle = 0.5 * (points[i] + points[j])
-            inside = part.depth(*middle.tolist()) if part.contains(*middle.tolist()) else -1.0
-            if inside > depth_of:
-                best, depth_of = middle, inside
+    points = core.rings[0] if core.rings else part.rings[0]
+    some = points[:: max(1, len(points) // CORNERS)]
+    places = np.array([np.mean(three, axis=0) for three in combinations(some, 3)])
+    places = places[part.contains_all(places)]
+    best = max(places.tolist(), key=lambda place: part.depth(*place), default=points[0].tolist())
     return float(best[0]), float(best[1])
 
 
-def _misread(
-    case: Case, domain: Region, feature: int, place: Point
-) -> tuple[Point, float | None] | None:
-    """A reading at a place outside the goals with which a condition on this domain is true."""
-    space, position, sets = case.strategy.space, _position(case), case.sets
+def _misread(case: Case, feature: int, place: Point) -> tuple[Point, float | None, int] | None:
+    """A reading at a place with which a goal is told that does not hold it, and that goal."""
+    strategy, position, sets = case.strategy, _position(case), case.sets
     forces: list[float | None] = [None] if sets.zero[feature] else []
     low, high = float(sets.low[feature]), float(sets.high[feature])
     if low < high:
@@ -273,17 +302,36 @@ def _misread(
         for part in (0.5, 0.98)
         for turn in np.linspace(0.0, math.tau, 24, endpoint=False)
     ]
-    for goal in case.motion.goals:
-        rest = elsewhere(space, case.strategy.region(goal).region, domain)
-        for force in forces:
-            can = sets.zero if force is None else (sets.low < force) & (force < sets.high)
-            alike = rest.chosen(np.asarray(can, dtype=np.bool_))
-            for x, y in around:
-                q = (place[0] + x, place[1] + y)
-                if _misses(alike, q, position, bool(can[-1])):
-                    told = None if force is None else case.motion.direction + math.pi + force
-                    return q, told
+    # goals are asked for in this order, and the first one that is told is believed
+    goals = sorted(map(strategy.region, case.motion.goals), key=lambda one: (one.rank, one.id))
+    rests = [
+        (goal, elsewhere(strategy.space, goal.region, condition.domain))
+        for condition in case.motion.termination
+        if isinstance(condition, ReadingCondition)
+        for goal in goals
+    ]
+    for force in forces:
+        can = sets.zero if force is None else (sets.low < force) & (force < sets.high)
+        alike = [(goal, rest.chosen(np.asarray(can, dtype=np.bool_))) for goal, rest in rests]
+        for x, y in around:
+            q = (place[0] + x, place[1] + y)
+            told = (goal for goal, rest in alike if _misses(rest, q, position, bool(can[-1])))
+            goal = next(told, None)
+            if goal is not None and not _holds(case, goal.region, feature, place):
+                said = None if force is None else case.motion.direction + math.pi + force
+                return q, said, goal.id
     return None
+
+
+def _holds(case: Case, goal: Region, feature: int, place: Point) -> bool:
+    contact = case.strategy.space.contact
+    count = len(contact)
+    if feature < count:
+        distance = math.dist(place, tuple(contact.points[feature].tolist()))
+        return goal.contact.contains(feature, distance, 0.0)
+    if feature < 2 * count:
+        return goal.contact.has_vertex(feature - count)
+    return goal.area.contains(*place)
 
 
 def _misses(rest: Elsewhere, q: Point, position: float, free: bool) -> bool:
@@ -306,8 +354,17 @@ def _shown(
 ) -> Finding:
     """A fault with its trajectory, refuted if nature may drive the motion so."""
     trace = _trace(case, stops, outcome, words)
-    verdict = Verdict.REFUTED if admissible(trace, ANGLE) else Verdict.UNPROVEN
+    verdict = Verdict.REFUTED if _possible(case, trace) else Verdict.UNPROVEN
     return Finding(fault, verdict, words, trace)
+
+
+def _possible(case: Case, trace: Trace) -> bool:
+    """Whether a trajectory begins in the region, and nature may drive the motion so."""
+    leg = trace.legs[0]
+    x, y = leg.places[0].tolist()
+    return _holds(case, case.region.region, int(leg.features[0]), (x, y)) and admissible(
+        trace, ANGLE
+    )
 
 
 def _trace(case: Case, stops: tuple[Stop, ...], outcome: Outcome, words: str) -> Trace:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from preimage.verification.flights import Flight, FromAbove, FromEdge, FromVertex, Point
@@ -26,6 +27,10 @@ class Stop:
     along: int = -1
 
 
+class NoWayError(Exception):
+    """What is reached cannot be traced back."""
+
+
 class Ways:
     """Finds ways within what is reached, once that is all."""
 
@@ -36,24 +41,31 @@ class Ways:
 
     def to_edge(self, edge: int, distance: float) -> tuple[Stop, ...]:
         """A way from the start to a reached place of an edge."""
-        stops = self._back(self._on_edge(edge, distance), self.spreading.time + 1)
-        return _joined(stops, self.levels.tolerance)
+        stop = self._on_edge(edge, distance)
+        return self._found(stop, lambda: self._back(stop, self.spreading.time + 1))
 
     def to_vertex(self, vertex: int) -> tuple[Stop, ...]:
         """A way from the start to a reached vertex."""
-        stops = self._back(self._at(vertex), self.spreading.time + 1)
-        return _joined(stops, self.levels.tolerance)
+        stop = self._at(vertex)
+        return self._found(stop, lambda: self._back(stop, self.spreading.time + 1))
 
     def to_side(self, edge: int) -> tuple[Stop, ...]:
         """A way from the start to an open side that is reached."""
         touch = self.reached.escapes[edge]
         stop = self._on_edge(edge, 0.5 * (touch.low + touch.high))
-        return _joined(self._leading(stop, touch), self.levels.tolerance)
+        return self._found(stop, lambda: self._leading(stop, touch))
 
     def to_free(self, flight: Flight, place: Point) -> tuple[Stop, ...]:
         """A way from the start to a place where something flies."""
         stop = Stop(place, 2 * self.count)
-        return _joined((*self._flown(flight, place), stop), self.levels.tolerance)
+        return self._found(stop, lambda: (*self._flown(flight, place), stop))
+
+    def _found(self, stop: Stop, find: Callable[[], tuple[Stop, ...]]) -> tuple[Stop, ...]:
+        """The way that is found; the place alone if it is lost in ties, or has too many bends."""
+        try:
+            return _joined(find(), self.levels.tolerance, self.count)
+        except (NoWayError, RecursionError):
+            return (stop,)
 
     def _leading(self, stop: Stop, touch: Touch) -> tuple[Stop, ...]:
         """The way to a place that is touched so."""
@@ -81,6 +93,8 @@ class Ways:
         """What touched an edge so that one gets to a distance from there, and where."""
         slack, found = self.levels.tolerance, []
         gaps = self.spreading.gaps[edge]
+        if not gaps:
+            raise NoWayError
         gap = min(gaps, key=lambda one: max(one[0] - distance, distance - one[1]))
         for touch in self.reached.touches[edge]:
             near = min(max(distance, touch.low), touch.high)
@@ -91,6 +105,8 @@ class Ways:
             )
             if touch.time < time and leads and gap[0] - slack <= near <= gap[1] + slack:
                 found.append((abs(distance - near), touch.time, touch, near))
+        if not found:
+            raise NoWayError
         _, _, touch, near = min(found)
         return touch, near
 
@@ -167,11 +183,13 @@ def _between(begin: Point, end: Point, part: float) -> Point:
     return begin[0] + part * (end[0] - begin[0]), begin[1] + part * (end[1] - begin[1])
 
 
-def _joined(stops: tuple[Stop, ...], tolerance: float) -> tuple[Stop, ...]:
-    """A way without stops at the place of the next one."""
+def _joined(stops: tuple[Stop, ...], tolerance: float, count: int) -> tuple[Stop, ...]:
+    """A way without stops at the place of the next one; a vertex counts more than its edges."""
     kept: list[Stop] = []
     for stop in stops:
         if kept and math.dist(kept[-1].place, stop.place) <= tolerance:
-            stop = replace(stop, along=kept.pop().along)
+            before = kept.pop()
+            corner = stop.feature < count <= before.feature < 2 * count
+            stop = replace(before if corner else stop, along=before.along)
         kept.append(stop)
     return tuple(kept)

@@ -89,7 +89,7 @@ def trace_of(
         measured=places if known else np.full_like(places, np.nan),
         forces=np.full(len(stops), np.nan),
     )
-    return Trace(strategy, (leg,), outcome, control="worst case", sensing="exact", words=words)
+    return Trace(strategy, (leg,), outcome, words=words)
 
 
 def place_of(projection: ForwardProjection, stop: Stop) -> Point:
@@ -151,7 +151,7 @@ def _slide(
     normal = math.atan2(tangent[0], -tangent[1])
     actual = normal + (angle if onward else -angle) + math.pi
     speed = sliding_speed(angle, task.friction, task.sliding)
-    return math.atan2(math.sin(actual), math.cos(actual)), max(speed, 0.5 * SLOWEST)
+    return math.atan2(math.sin(actual), math.cos(actual)), speed if speed > 0.0 else SLOWEST
 
 
 def admissible(trace: Trace, slack: float) -> bool:

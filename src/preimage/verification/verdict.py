@@ -142,8 +142,9 @@ class Verification(Shown):
 
     @property
     def counterexample(self) -> Trace | None:
-        """The first trajectory that breaks the promise."""
-        return next((one.trace for one in self.every if one.trace is not None), None)
+        """The first trajectory that breaks the promise; one of a proof rather than one of a run."""
+        every = sorted(self.every, key=lambda one: one.fault is Fault.RUNS)
+        return next((one.trace for one in every if one.trace is not None), None)
 
 
 def worst(findings: tuple[Finding, ...]) -> Verdict:

@@ -95,7 +95,7 @@ def verify(
     report = None
     if runs > 0 and strategy.status is Status.SOLVED:
         tell("runs")
-        report = _runs(strategy, used, RunOptions(runs=runs, seed=seed))
+        report = _runs(strategy, cases, RunOptions(runs=runs, seed=seed))
         if report.failure is not None:
             words = f"in a run: {report.failure.words or report.failure.outcome.value}"
             findings.append(Finding(Fault.RUNS, Verdict.REFUTED, words, report.failure))
@@ -255,14 +255,15 @@ def _maximality(case: Case) -> Maximality:
     return Maximality(more, missing.total_length, less, excess.total_length, tuple(vertices))
 
 
-def _runs(strategy: Strategy, regions: tuple[StrategyRegion, ...], options: RunOptions) -> Report:
+def _runs(strategy: Strategy, cases: dict[int, Case], options: RunOptions) -> Report:
     """Runs from everywhere: of the rest of the plan, from all over the region of each motion."""
     reports = []
-    for region in regions:
-        rest = replace(strategy, start=(region.id,))
+    marks = {number: case.stop for number, case in cases.items()}
+    for number, case in cases.items():
+        rest = replace(strategy, start=(number,))
         with contextlib.suppress(ValueError):  # too thin a region to start in
-            start = Start.anywhere_in(region.region)
-            reports.append(run(rest, start=start, options=options))
+            start = Start.anywhere_in(case.region.region)
+            reports.append(run(rest, start=start, marks=marks, options=options))
     failures = [report.failure for report in reports if report.failure is not None]
     slowest = [report.slowest for report in reports if report.slowest is not None]
     return Report(

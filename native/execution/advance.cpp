@@ -14,6 +14,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double quarter = 0.5 * std::numbers::pi;
 constexpr double full = 2.0 * std::numbers::pi;
 
+// Moves are interrupted so many `near` behind a border, where nothing is taken for a vertex any
+// more; a border that a robot stands on, or has just crossed by less than half of that, is ahead.
+constexpr double behind = 4.0;
+
 struct Vec {
     double x, y;
 };
@@ -196,7 +200,7 @@ private:
         for (auto i = walls_marks(edge); i < walls_marks(edge + 1); ++i) {
             const double mark = gates_.marks[i];
             const double gap = forward ? mark - begin : begin - mark;
-            if (gap > 0.0) best = std::min(best, gap + law_.near);
+            if (gap > -0.5 * behind * law_.near) best = std::min(best, gap + behind * law_.near);
         }
         return best;
     }
@@ -256,11 +260,12 @@ private:
             if (turn == 0.0) continue;
             const double ox = s[0] - p.x, oy = s[1] - p.y;
             const double part = (ox * u.y - oy * u.x) / turn;
-            if (part < 0.0 || part > 1.0) continue;
+            const double rim = law_.near / std::hypot(ex, ey);
+            if (part < -rim || part > 1.0 + rim) continue;
             const double reach = (ox * ey - oy * ex) / turn;
-            if (reach > 0.0 && reach < best) best = reach;
+            if (reach > -0.5 * behind * law_.near && reach < best) best = reach;
         }
-        return best + law_.near;
+        return best + behind * law_.near;
     }
 
     // Of the vertices at one position, that in whose wedge a flight from `p` arrives.

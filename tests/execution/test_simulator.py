@@ -267,3 +267,35 @@ def test_moves_are_interrupted_at_the_borders_of_what_is_watched() -> None:
         sliding = moves.robots
         places.append(float(sliding.along[0]))
     assert places == pytest.approx([2.0, 3.0], abs=1e-6)
+
+
+def test_a_move_that_begins_on_a_border_is_interrupted_just_inside() -> None:
+    """An edge may be watched without the vertex at its end, an area without the edge below it."""
+    space = space_of([shapely.box(-6.0, -6.0, 2.0, -4.0), shapely.box(2.0, -6.0, 6.0, 6.0)])
+    contact = space.contact
+    floor = int(
+        np.argmax(np.isclose(contact.points[:, 1], -4.0) & np.isclose(contact.ends[:, 1], -4.0))
+    )
+    length = float(contact.length[floor])
+    watched = Region(
+        Area.box(-3.0, -4.0, 1.0, 0.0), ContactSet.of([floor], [0.0], [length], [], 1e-9)
+    )
+    simulator = Simulator.of(space, 0.0, watched=watched)
+    near = space.tolerance.length
+
+    def step(robots: Robots, angle: float) -> Robots:
+        choices = Choices(np.array([angle]), np.array([np.inf]), np.zeros(1, np.uint8), np.zeros(1))
+        return advance(simulator, robots, choices).robots
+
+    ends_of = (floor, int(contact.next[floor]))
+    corner = next(v for v in ends_of if contact.points[v, 0] > 0.0)
+    slid = step(Robots.at_vertices(contact, np.array([corner], np.int32)), math.radians(225.0))
+    assert slid.feature[0] == floor
+    ends = 0.0 if corner == floor else length
+    assert near < abs(float(slid.along[0]) - ends) < 10.0 * near
+    again = step(slid, math.radians(225.0))
+    assert abs(float(again.along[0]) - ends) > 1.0
+    middle = Robots.on_edges(contact, np.array([floor], np.int32), np.array([0.5 * length]))
+    flown = step(middle, math.radians(90.0))
+    assert near < float(flown.y[0]) + 4.0 < 10.0 * near
+    assert float(step(flown, math.radians(90.0)).y[0]) == pytest.approx(0.0, abs=1e-6)

@@ -69,6 +69,37 @@ def test_an_adversary_of_ones_own(plan_file: Path, tmp_path: Path, capsys: Captu
         assert len(printed.err.splitlines()) == 1
 
 
+def test_what_an_adversary_of_ones_own_does_wrong_is_said(
+    plan_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    own = tmp_path / "mine.py"
+    own.write_text(
+        "def crash(now):\n    return 1 / 0\n"
+        "def nowhere(now):\n    return now.choices(float('nan'))\n"
+        "def nothing(now):\n    return now.part(now.touching).choices(0.0)\n"
+        "def fine(now):\n    return now.choices(0.1)\n"
+    )
+    arguments = ["run", str(plan_file), "--runs", "2", "--adversary"]
+    for name, words in (
+        ("crash", "ZeroDivisionError"),
+        ("nowhere", "directions that are numbers"),
+        ("nothing", "for each of 2 robots"),
+    ):
+        assert run([*arguments, f"{own}:{name}"]) == 2, name
+        printed = capsys.readouterr()
+        assert words in printed.err
+        assert len(printed.err.splitlines()) == 1
+    assert run([*arguments, f"{own}:fine", "--parallel"]) == 0
+
+
+def test_runs_that_were_not_made_are_no_success(
+    plan_file: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("preimage.cli.execution.Interruption.__call__", lambda _: True)
+    assert run(["run", str(plan_file), "--runs", "2"]) == 1
+    assert "interrupted: 1 of 88 pairs" in capsys.readouterr().out
+
+
 def test_adversaries_are_listed(capsys: Capture) -> None:
     assert run(["run", "--adversaries"]) == 0
     printed = capsys.readouterr().out

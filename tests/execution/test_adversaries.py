@@ -1,6 +1,7 @@
 """Adversaries keep within the errors' bounds, and forces are those of the rules."""
 
 import math
+from dataclasses import replace
 from random import Random
 
 import numpy as np
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
+from preimage.errors import InputError
 from preimage.execution.contact_forces import contact_forces
 from preimage.execution.control import CONTROLS, Control, by_contact, constant, mixed
 from preimage.execution.nearest import outline
@@ -151,6 +153,28 @@ def test_one_of_your_own_takes_a_few_lines() -> None:
     own: Control = swinging
     now, scene = situation(5, control=0.3)
     assert np.all(np.abs(wrap(own(now).angle - scene.direction)) < 0.3)
+
+
+def test_choices_are_brought_back_into_the_cone() -> None:
+    now, scene = situation(5, control=0.3)
+    count = len(now)
+    wild = Choices(
+        scene.direction + np.linspace(-3.0, 3.0, count),
+        np.full(count, np.inf),
+        np.zeros(count, np.uint8),
+        np.zeros(count),
+    )
+    kept = now.admissible(wild)
+    assert np.all(np.abs(wrap(kept.angle - scene.direction)) < 0.3)
+    for changed in (
+        {"angle": np.full(count, np.nan)},
+        {"angle": np.zeros(count + 1)},
+        {"duration": np.full(count, -1.0)},
+        {"duration": np.full(count, np.nan)},
+        {"chance": np.full(count, np.nan)},
+    ):
+        with pytest.raises(InputError, match="adversary"):
+            now.admissible(replace(wild, **changed))
 
 
 def test_hunters_go_for_what_holds() -> None:

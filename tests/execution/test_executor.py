@@ -456,3 +456,10 @@ def test_history_needs_no_more_room_at_any_rate() -> None:
     found = history.before(2.0 - 1e-4 - 1.0)
     assert found is not None
     assert 0.99 < found[0] <= 1.0
+
+
+@pytest.mark.parametrize("value", ["1", None, [], b"1", 1j, 10**400, math.nan, math.inf])
+def test_a_force_that_is_no_number_is_not_felt_as_one(value: object) -> None:
+    told = felt(value, 0.0, 0.1)  # type: ignore[arg-type]  # whatever a driver hands over
+    assert told is not None
+    assert math.isnan(told)

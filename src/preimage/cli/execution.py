@@ -23,6 +23,7 @@ from preimage.cli.output import (
     write,
 )
 from preimage.cli.progress import Interruption, ProgressLine
+from preimage.errors import one_line
 
 if TYPE_CHECKING:
     from preimage.execution.trace import Trace
@@ -94,7 +95,7 @@ def run_command(
     The first run that fails is kept whole, printed and drawn; if none does, the picture shows some
     of each pair of adversaries, and the film the run that took longest.
 
-    Exit status: 0 all runs succeeded, 1 some failed, 2 bad input.
+    Exit status: 0 all runs succeeded, 1 some failed or were not made, 2 bad input.
     """
     tell = note if output == STANDARD else say
     with ProgressLine() as line:
@@ -112,12 +113,16 @@ def run_command(
                     control=controls,
                     sensing=sensings,
                     start=_start(strategy, place),
-                    options=RunOptions(runs, seed, (os.cpu_count() or 1) if parallel else 1),
+                    options=RunOptions(runs, seed, _workers(names, parallel)),
                     progress=line.runs,
                     cancelled=interrupted,
                 )
         line.clear()
         tell(describe_report(report))
+        pairs = len(controls) * len(sensings)
+        stopped = len(report.tallies) < pairs
+        if stopped:
+            tell(f"interrupted: {len(report.tallies)} of {pairs} pairs of adversaries were run")
         if output is not None:
             write(output, format_report(report))
         if figure is not None:
@@ -130,7 +135,7 @@ def run_command(
     written = [name for name in (output, figure, animate) if name not in (None, STANDARD)]
     if written:
         tell(f"written: {', '.join(map(str, written))}")
-    return 1 if report.failures else 0
+    return 1 if report.failures or stopped else 0
 
 
 def _plan(path: str) -> Strategy:
@@ -170,6 +175,12 @@ def _adversaries(names: tuple[str, ...]) -> tuple[dict[str, Any], dict[str, Any]
     return controls or dict(CONTROLS), sensings or dict(SENSINGS)
 
 
+def _workers(names: tuple[str, ...], parallel: bool) -> int:
+    """How many processes make the runs; a function from a file is known to this one alone."""
+    own = any(".py:" in name for name in names)
+    return (os.cpu_count() or 1) if parallel and not own else 1
+
+
 def _own(name: str) -> object:
     """An adversary for control from a file of the user's."""
     path, _, function = name.rpartition(":")
@@ -180,11 +191,20 @@ def _own(name: str) -> object:
     try:
         spec.loader.exec_module(module)
     except Exception as error:
-        raise RefusalError(f"--adversary: {path}: {type(error).__name__}: {error}") from None
+        words = one_line(f"{type(error).__name__}: {error}")
+        raise RefusalError(f"--adversary: {path}: {words}") from None
     found = getattr(module, function, None)
     if not callable(found):
         raise RefusalError(f"--adversary: {path}: has no function {function!r}")
-    return found
+
+    def choose(now: object) -> object:
+        try:
+            return found(now)
+        except Exception as error:
+            words = one_line(f"{type(error).__name__}: {error}")
+            raise RefusalError(f"--adversary: {name}: {words}") from None
+
+    return choose
 
 
 def _start(strategy: Strategy, place: str | None) -> Any:

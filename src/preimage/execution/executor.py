@@ -54,7 +54,7 @@ def felt(fx: float, fy: float, threshold: float) -> float | None:
     >>> felt(0.0, 1.0, 0.05) == math.pi / 2
     True
     """
-    if not (math.isfinite(fx) and math.isfinite(fy)):
+    if not (_is_finite(fx) and _is_finite(fy)):
         return math.nan
     return None if math.hypot(fx, fy) <= threshold else math.atan2(fy, fx)
 

@@ -166,7 +166,7 @@ def carry_out(
         if not len(active):
             break
         now = flock.situation(conditions, active, rng)
-        choices = control(now)
+        choices = now.admissible(control(now))
         seen = read(sensing, now, choices.angle)
         told = recognised(motion.by_reading, *seen)
         flock.goal[active] = told

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
@@ -14,6 +16,7 @@ import numpy as np
 
 from preimage.configuration.region import Region
 from preimage.configuration.start import Start, start_region
+from preimage.errors import PreimageError
 from preimage.execution.chunk import NO_MARKS, OUTCOMES, Chunk, Scene, carry_out_plan
 from preimage.execution.control import CONTROLS, Control
 from preimage.execution.report import Report, Tally
@@ -82,6 +85,8 @@ def run(
     Raises
     ------
     PlanFileError : the plan is not solved.
+    InputError : an adversary's choices are no choices.
+    PreimageError : a process was ended from outside.
     ValueError : a name is not known.
 
     >>> import preimage
@@ -102,10 +107,12 @@ def run(
     collect = partial(_collected, options.runs * len(pairs), progress, cancelled)
     if options.workers > 1 and len(pairs) > 1:
         with ProcessPoolExecutor(
-            options.workers, initializer=_prepare, initargs=(strategy, start, marks)
+            options.workers, initializer=_begin, initargs=(strategy, start, marks)
         ) as pool:
             try:
                 found = collect(pool.map(work, pairs))
+            except BrokenProcessPool:
+                raise PreimageError("a process that made runs was ended from outside") from None
             finally:
                 pool.shutdown(cancel_futures=True)
     else:
@@ -171,6 +178,13 @@ def _collected(
 
 
 _prepared: list[tuple[Scene, Start]] = []
+
+
+def _begin(strategy: Strategy, start: Start, marks: Mapping[int, Region]) -> None:
+    """Begin to work in a process of one's own: who wants it to stop tells its parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    _prepare(strategy, start, marks)
 
 
 def _prepare(strategy: Strategy, start: Start, marks: Mapping[int, Region]) -> None:

@@ -12,6 +12,7 @@ from preimage.configuration import contact_set
 from preimage.configuration.contact import Bools, Floats
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
+from preimage.errors import InputError
 from preimage.execution.nearest import outline
 from preimage.execution.simulator import Bytes, Choices, Robots, Simulator, Wish
 from preimage.geometry.angles import wrap
@@ -149,6 +150,25 @@ class Situation:
             np.array(np.broadcast_to(wish, (count,)), dtype=np.uint8),
             self.chance(),
         )
+
+    def admissible(self, chosen: Choices) -> Choices:
+        """The same choices, with directions brought back into the cone.
+
+        Raises
+        ------
+        InputError : there is not one of each for every robot, or one is no number.
+        """
+        columns = (chosen.angle, chosen.duration, chosen.chance, chosen.wish)
+        if any(np.shape(column) != (len(self),) for column in columns):
+            raise InputError("adversary", f"must choose for each of {len(self)} robots")
+        angle, duration, chance = (np.asarray(column, np.float64) for column in columns[:3])
+        if not np.all(np.isfinite(angle)) or not np.all(np.isfinite(chance)):
+            raise InputError("adversary", "must choose directions that are numbers")
+        if not np.all(duration >= 0.0):
+            raise InputError("adversary", "must choose durations that are not negative")
+        turn = np.clip(self.turn_to(angle), -self.cone, self.cone)
+        wish = np.asarray(chosen.wish, dtype=np.uint8)
+        return Choices(self.motion.direction + turn, duration, wish, chance)
 
     def part(self, which: Bools) -> Situation:
         """Of some of the robots alone."""

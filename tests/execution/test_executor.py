@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
@@ -463,3 +464,27 @@ def test_a_force_that_is_no_number_is_not_felt_as_one(value: object) -> None:
     told = felt(value, 0.0, 0.1)  # type: ignore[arg-type]  # whatever a driver hands over
     assert told is not None
     assert math.isnan(told)
+
+
+HOSTILE = [
+    ("1.5", -2.5, 2.5, None), (None, -2.5, 2.5, None), (math.nan, -2.5, 2.5, None),
+    (math.inf, -2.5, 2.5, None), (10**400, -2.5, 2.5, None), (1.4, -2.5, 2.5, None),
+    (0.3, -2.5, 2.5, None), (1e308, -2.5, 2.5, None), (1.5, math.nan, 2.5, None),
+    (1.5, math.inf, 2.5, None), (1.5, 1e300, 2.5, None), (1.5, "a", [], None),
+    (1.5, 10**400, 2.5, None), (1.5, -2.5, 2.5, math.nan), (1.5, -2.5, 2.5, math.inf),
+    (1.5, -2.5, 2.5, "up"), (1.5, -2.5, 2.5, 1j),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("reading", HOSTILE, ids=repr)
+def test_a_hostile_reading_on_the_way_stops_the_robot(reading: tuple[Any, ...]) -> None:
+    executor = Executor(compiled(plan(named_task("peg-in-hole"))))
+    executor.start(0.0, -4.0, 2.5)
+    for step in range(1, 15):
+        answer = executor.read(0.1 * step, -4.0 + 0.1 * step, 2.5, None)
+        assert answer.doing is Doing.MOVING
+    answer = executor.read(*reading)
+    assert answer.doing is Doing.BROKEN
+    assert answer.command is None
+    assert answer.broken is not None
+    assert executor.read(99.0, 0.0, -3.0, math.pi / 2) is answer

@@ -60,6 +60,7 @@ def changed(
     for one in strategy.regions:
         if one.id == number:
             assert one.motion is not None
+            # fields by name, of any type
             made = replace(one.motion, **motion)  # type: ignore[arg-type]
             one = replace(one, region=one.region if region is None else region, motion=made)
         regions.append(one)
@@ -68,6 +69,7 @@ def changed(
 
 def with_task(strategy: Strategy, **fields: object) -> Strategy:
     """The same plan for another task."""
+    # fields by name, of any type
     return replace(strategy, task=replace(strategy.task, **fields))  # type: ignore[arg-type]
 
 

@@ -86,6 +86,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command; its exit status."""
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(AttributeError, OSError, ValueError):
+            # a stream that is None or no TextIOWrapper lacks it, which is suppressed above
             stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     try:
         status = commands.main(arguments, prog_name="preimage", standalone_mode=False)

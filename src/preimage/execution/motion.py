@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from typing import TypeVar
 
 import numpy as np
 from numpy.random import Generator
@@ -19,6 +20,7 @@ from preimage.execution.situation import Conditions, Situation
 from preimage.execution.tracks import Tracks, first_return, where
 
 Indices = NDArray[np.intp]
+Kind = TypeVar("Kind", bound=np.generic)
 
 STRIDES = 12.0
 """Nature and the sensors are asked again at least so many times while the window is crossed."""
@@ -95,20 +97,20 @@ class _Notes:
         who = np.concatenate([row[0] for row in self._rows])
         order = np.argsort(who, kind="stable")
 
-        def column(values: list[NDArray[np.generic]]) -> NDArray[np.generic]:
+        def column(values: list[NDArray[Kind]]) -> NDArray[Kind]:
             return np.concatenate(values)[order]
 
         start = np.zeros(count + 1, dtype=np.int64)
         np.cumsum(np.bincount(who, minlength=count), out=start[1:])
         return Tracks(
             start,
-            time=column([row[1] for row in self._rows]),  # type: ignore[arg-type]
-            places=column([row[2].places for row in self._rows]),  # type: ignore[arg-type]
-            feature=column([row[2].feature for row in self._rows]),  # type: ignore[arg-type]
-            between=column([row[3] for row in self._rows]),  # type: ignore[arg-type]
-            angle=column([row[4] for row in self._rows]),  # type: ignore[arg-type]
-            measured=column([row[5] for row in self._rows]),  # type: ignore[arg-type]
-            force=column([row[6] for row in self._rows]),  # type: ignore[arg-type]
+            time=column([row[1] for row in self._rows]),
+            places=column([row[2].places for row in self._rows]),
+            feature=column([row[2].feature for row in self._rows]),
+            between=column([row[3] for row in self._rows]),
+            angle=column([row[4] for row in self._rows]),
+            measured=column([row[5] for row in self._rows]),
+            force=column([row[6] for row in self._rows]),
         )
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from enum import Enum
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -185,7 +185,8 @@ class _Moving:
 
         from preimage.rendering.style import BLUE, INK, ORANGE, PAPER, VERMILLION
 
-        self.axes, self.canvas = figure.axes[0], figure.canvas
+        self.axes = figure.axes[0]
+        self.canvas = cast(Any, figure.canvas)  # of Agg, whose methods matplotlib leaves untyped
         task = trace.strategy.task
         xmin, xmax = self.axes.get_xlim()
         self.unit = (xmax - xmin) / (72.0 * figure.get_figwidth() * self.axes.get_position().width)
@@ -213,7 +214,7 @@ class _Moving:
             part.set_animated(True)
             self.axes.add_artist(part)
         self.canvas.draw()
-        self.ground = self.canvas.copy_from_bbox(figure.bbox)  # type: ignore[attr-defined]
+        self.ground = self.canvas.copy_from_bbox(figure.bbox)
 
     def pixels(self, frame: Frame) -> Pixels:
         """(h, w, 3) the picture of a frame."""
@@ -237,7 +238,7 @@ class _Moving:
             self.push.set_xy(outline)
         ended = f"  {frame.ended}" if frame.ended else ""
         self.words.set_text(f"t = {frame.time:.1f}{ended}")
-        canvas: Any = self.canvas
+        canvas = self.canvas
         canvas.restore_region(self.ground)
         for part in self.parts:
             self.axes.draw_artist(part)

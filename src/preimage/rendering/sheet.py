@@ -348,6 +348,7 @@ def _legend(figure: Figure, legend: Sequence[Key], width: float) -> tuple[Legend
             handleheight=0.95, borderpad=0.2, labelspacing=0.75, columnspacing=1.4,
             borderaxespad=0.0,
         )  # fmt: skip
+        # matplotlib leaves get_renderer untyped
         size = drawn.get_window_extent(canvas.get_renderer())  # type: ignore[no-untyped-call]
         scale = POINTS_AN_INCH / figure.dpi
         if size.width * scale <= width or columns == 1:

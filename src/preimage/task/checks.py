@@ -29,7 +29,8 @@ def number(value: object, key: str, within: Range | None = None) -> float:
     if not is_number(value):
         raise TaskError(key, f"must be a number, not {shown(value)}")
     try:
-        result = float(value) + 0.0  # type: ignore[arg-type]  # -0 becomes 0
+        # a number, as is_number has found; -0 becomes 0
+        result = float(value) + 0.0  # type: ignore[arg-type]
     except OverflowError:
         result = math.inf
     if not math.isfinite(result):

@@ -130,6 +130,8 @@ options = st.builds(
     time_limit=st.one_of(st.none(), st.floats(1e-3, 1e6)),
     max_regions=st.integers(1, 10**7),
     arc_tolerance=st.floats(1e-6, 0.1),
+    resolution=st.floats(1e-5, 0.7),
+    or_fail=st.booleans(),
 )
 robots = st.one_of(st.just(Robot()), st.builds(Robot, rings(0.2), points))
 names = st.one_of(

@@ -244,7 +244,7 @@ TABLE: list[tuple[Path, Any, str, bool]] = [
     (("planner", "method"), "kernels", "planner.method: must be sticking, kernel or combine", True),
     (("planner", "strategy"), 1, "planner.strategy: must be linear or conditional, not 1", True),
     (("planner", "termination"), None, "planner.termination: must be instantaneous", True),
-    (("planner", "search"), "depth", "planner.search: must be breadth-first or best-first", True),
+    (("planner", "search"), "depth", "planner.search: must be breadth-first, best-first or led", True),
     (
         ("planner", "max_steps"),
         0,
@@ -266,6 +266,13 @@ TABLE: list[tuple[Path, Any, str, bool]] = [
     ),
     (("planner", "time_limit"), None, "planner.time_limit: must be a number, not nothing", True),
     (("planner", "arc_tolerance"), 0.2, "planner.arc_tolerance: must be above 0 and at most", True),
+    (
+        ("planner", "resolution"),
+        0,
+        "planner.resolution: must be at least 0.0001 and at most 45",
+        True,
+    ),
+    (("planner", "or_fail"), "yes", "planner.or_fail: must be true or false, not 'yes'", True),
 ]
 
 

@@ -46,7 +46,14 @@ def test_defaults_are_the_parsers() -> None:
     for word in ("walls", "robot", "sliding"):
         assert schema[word]["default"] == task[word]
     given = {"directions": 4}
-    ours = {"search", "time_limit", "max_regions", "arc_tolerance"}  # not in the contract
+    ours = {
+        "search",
+        "time_limit",
+        "max_regions",
+        "arc_tolerance",
+        "resolution",
+        "or_fail",
+    }  # not in the contract
     for word, option in schema["planner"]["properties"].items():
         if word in ours:
             assert word not in task["planner"]

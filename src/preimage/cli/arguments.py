@@ -174,7 +174,7 @@ def planner_options(function: Function) -> Function:
         click.option(
             "--directions",
             metavar="2K|LIST",
-            help="An even number of directions, evenly spread; or degrees: 0,90,225.",
+            help="An even number of directions, evenly spread; degrees: 0,90,225; or continuous.",
         ),
         click.option(
             "--search",
@@ -186,8 +186,28 @@ def planner_options(function: Function) -> Function:
             "--time-limit", metavar="SECONDS", help="When to stop with what was found; or none."
         ),
         click.option("--max-regions", type=int, metavar="N", help="The most regions made."),
-        click.option("--strategy", type=click.Choice([member.value for member in StrategyKind])),
-        click.option("--termination", type=click.Choice([member.value for member in Termination])),
+        click.option(
+            "--strategy",
+            type=click.Choice([member.value for member in StrategyKind]),
+            help="A fixed sequence of motions, or a policy that chooses by what is read.",
+        ),
+        click.option(
+            "--termination",
+            type=click.Choice([member.value for member in Termination]),
+            help="What tells the end of a motion: the readings; also where it began; also where "
+            "it would have been stopped.",
+        ),
+        click.option(
+            "--resolution",
+            metavar="DEGREES",
+            help="To which continuous directions are told apart.",
+        ),
+        click.option(
+            "--or-fail/--guaranteed",
+            default=None,
+            help="Where no plan surely ends in the goal: one that ends there or knows that it has "
+            "failed.",
+        ),
     )
     for option in reversed(options):
         function = option(function)
@@ -205,6 +225,7 @@ PLANNER = {
         "max_regions",
         "strategy",
         "termination",
+        "resolution",
     )
 }
 """Keys of a task that have an option of their own."""
@@ -217,8 +238,9 @@ def overridden(source: Source, given: dict[str, Any]) -> Source:
         return source
     if "directions" in chosen:
         chosen["directions"] = _directions(chosen["directions"])
-    if "time_limit" in chosen:
-        chosen["time_limit"] = _number(chosen["time_limit"])
+    for word in ("time_limit", "resolution"):
+        if word in chosen:
+            chosen[word] = _number(chosen[word])
     with about("", PLANNER):
         # the rules are the file's own
         parsed = parse_task({**_SMALLEST, "planner": chosen}).options

@@ -113,6 +113,11 @@ class ContactSpace:
         return np.flatnonzero(~(self.open & self.open[self.previous])).astype(np.int32)
 
     @cached_property
+    def outermost(self) -> Ints:
+        """Indices of the contact vertices beside an open side: who is there has escaped."""
+        return np.flatnonzero(self.open != self.open[self.previous]).astype(np.int32)
+
+    @cached_property
     def index(self) -> EdgeIndex:
         """All edges, the open ones too, in a search tree."""
         return EdgeIndex(self.points, self.ends)

@@ -109,6 +109,17 @@ def complement(a: ContactSet, contact: ContactSpace, tolerance: float) -> Contac
     return difference(ContactSet.whole(contact), a, tolerance)
 
 
+def inner(contact: ContactSpace) -> ContactSet:
+    """All of contact space but the vertices at the open border of the window."""
+    return without_outermost(ContactSet.whole(contact), contact)
+
+
+def without_outermost(a: ContactSet, contact: ContactSpace) -> ContactSet:
+    """`a` without the vertices at the open border: who is there has escaped."""
+    vertices = np.setdiff1d(a.vertices, contact.outermost, assume_unique=True)
+    return ContactSet(a.edge, a.low, a.high, vertices)
+
+
 def _parts(a: ContactSet) -> Intervals:
     return a.edge, a.low, a.high
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from preimage.configuration import contact_set
 from preimage.configuration.contact import ContactSpace
-from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
 from preimage.display import Shown
 from preimage.geometry.area import Area
@@ -32,5 +32,8 @@ class ConfigurationSpace(Shown):
 
     @property
     def valid(self) -> Region:
-        """All of valid space: free space and contact space."""
-        return Region(self.free, ContactSet.whole(self.contact))
+        """All of valid space: free space, and contact space but where it meets the open border.
+
+        Who is on an open side of the window has escaped, also at a vertex between it and an edge.
+        """
+        return Region(self.free, contact_set.inner(self.contact))

@@ -38,6 +38,10 @@ DISC_SIDES = 64
 ROUNDING = 4.0
 """Slivers so many spacings of the grid thick are what rounding leaves of equal areas."""
 
+AWAY = 8.0
+"""Anywhere is no nearer to an open side than so many tolerances: the robot has not escaped yet, nor
+will it along such a side with perfect control, where the cone is as wide as the tolerance."""
+
 PROBES = 64
 """The distance of a start from a region is taken at so many of its points at most."""
 
@@ -82,7 +86,8 @@ def start_region(task: Task, space: ConfigurationSpace) -> Start:
 
     An area means its free space, its edges and the concave vertices in it: a robot is not put
     on a tip, unless the tip is named as a point. An edge means the open edge and its concave ends.
-    A disc is replaced by a polygon that contains it.
+    A disc is replaced by a polygon that contains it. Anywhere is anywhere but on an open side of
+    the window, where the robot would have escaped.
 
     Raises
     ------
@@ -100,8 +105,10 @@ def start_region(task: Task, space: ConfigurationSpace) -> Start:
         case InitialEdges(edges=edges):
             return _edges(edges, space)
         case Everywhere():
-            whole = ContactSet.whole(space.contact)
-            return Start.anywhere_in(Region(space.free, _without_tips(whole, space.contact)))
+            whole = Region(_off_open_sides(space), contact_set.inner(space.contact))
+            return Start.anywhere_in(
+                Region(whole.area, _without_tips(whole.contact, space.contact))
+            )
 
 
 def covered(start: Start, region: Region, space: ConfigurationSpace) -> bool:
@@ -114,12 +121,15 @@ def covered(start: Start, region: Region, space: ConfigurationSpace) -> bool:
     near = space.tolerance.length
     if start.kind is StartKind.REGION:
         inside = start.region
-        area = inside.area
-        if not area.is_empty:
-            area = areas.intersection(inflate.grow(area, near), space.free)
-        return contact_set.is_subset(inside.contact, region.contact, near) and areas.is_subset(
-            area, region.area, ROUNDING * space.tolerance.grid
-        )
+        area, slivers = inside.area, ROUNDING * space.tolerance.grid
+        if not contact_set.is_subset(inside.contact, region.contact, near):
+            return False
+        if area.is_empty:
+            return True
+        if not areas.is_subset(area, region.area, slivers):  # the quicker test
+            return False
+        grown = areas.intersection(inflate.grow(area, near), space.free)
+        return areas.is_subset(grown, region.area, slivers)
     if start.kind is StartKind.EDGE_POINT:
         return region.contact.contains(start.edge, start.distance, 0.0)
     if start.kind is StartKind.VERTEX:
@@ -137,6 +147,8 @@ def _point(point: Point, space: ConfigurationSpace) -> Start:
         raise TaskError(key, f"({x:.6g}, {y:.6g}) is outside the window")
     at = partial(Start, point=point, region=Region.empty())
     vertices = vertices_at(space.contact, point, near)
+    if np.any(np.isin(vertices, space.contact.outermost)):
+        raise TaskError(key, f"({x:.6g}, {y:.6g}) is on an open side of the window")
     if len(vertices):
         corner = tuple(vertices.tolist())
         return at(StartKind.VERTEX, edge=-1, distance=0.0, vertices=corner)
@@ -148,6 +160,19 @@ def _point(point: Point, space: ConfigurationSpace) -> Start:
     if not space.free.contains(x, y):
         raise TaskError(key, f"({x:.6g}, {y:.6g}) is inside an obstacle")
     return at(StartKind.FREE_POINT, edge=-1, distance=0.0, vertices=())
+
+
+def _off_open_sides(space: ConfigurationSpace) -> Area:
+    """Free space but for what is all but on an open side of the window."""
+    contact = space.contact
+    sides = np.flatnonzero(contact.open)
+    pieces = inflate.stadium_pieces(
+        contact.points[sides],
+        contact.ends[sides],
+        AWAY * space.tolerance.length,
+        inflate.tangent_normals(inflate.ARC_TOLERANCE),
+    )
+    return areas.regularised(inflate.shrunk_by(space.free, pieces), space.tolerance.length)
 
 
 def _area(area: Area, space: ConfigurationSpace, key: str) -> Start:

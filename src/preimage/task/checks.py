@@ -63,6 +63,13 @@ def integer(value: object, key: str, within: Range) -> int:
     return int(number(value, key, within))
 
 
+def truth(value: object, key: str) -> bool:
+    """True or false."""
+    if not isinstance(value, bool):
+        raise TaskError(key, f"must be true or false, not {shown(value)}")
+    return value
+
+
 def choice(value: object, key: str, kind: type[Choice]) -> Choice:
     """A member of an enumeration, or its word."""
     if isinstance(value, kind):

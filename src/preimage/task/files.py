@@ -164,6 +164,8 @@ def _options(options: PlannerOptions) -> dict[str, object]:
         "time_limit": NONE if limit is None else _number(limit),
         "max_regions": options.max_regions,
         "arc_tolerance": _number(options.arc_tolerance),
+        "resolution": _degrees(options.resolution),
+        "or_fail": options.or_fail,
     }
     default = PlannerOptions()
     changed = {key for key in ours if getattr(options, key) != getattr(default, key)}

@@ -77,6 +77,7 @@ STEPS = Range(1, 64)
 REGIONS = Range(1, 10_000_000)
 TIME_LIMIT = Range(0.0, 1e9, low_open=True, unit="seconds")
 ARC_TOLERANCE = Range(0.0, 0.1, low_open=True)
+DIRECTION_RESOLUTION = Range(1e-4, 45.0, unit="degrees")
 
 
 def check_count(vertices: int, key: str) -> None:

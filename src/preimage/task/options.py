@@ -36,10 +36,11 @@ class Termination(Enum):
 
 
 class SearchOrder(Enum):
-    """The order in which a linear search looks at regions."""
+    """How a linear search goes about its regions."""
 
     BREADTH_FIRST = "breadth-first"
     BEST_FIRST = "best-first"
+    LED = "led"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +107,14 @@ class PlannerOptions:
         default=0.005,
         metadata={"unit": "of the arc's radius", "reason": "a tenth of the usual margin"},
     )
+    resolution: float = field(
+        default=to_radians(0.1),
+        metadata={"unit": "radians", "reason": "finer than drives are built"},
+    )
+    or_fail: bool = field(
+        default=False,
+        metadata={"unit": "", "reason": "who asks for a guarantee means it"},
+    )
 
     def __post_init__(self) -> None:
         """Refuse options that are out of range."""
@@ -123,6 +132,10 @@ class PlannerOptions:
         object.__setattr__(self, "max_regions", regions)
         arc = checks.number(self.arc_tolerance, "planner.arc_tolerance", limits.ARC_TOLERANCE)
         object.__setattr__(self, "arc_tolerance", arc)
+        finest = checks.angle(self.resolution, "planner.resolution", limits.DIRECTION_RESOLUTION)
+        object.__setattr__(self, "resolution", finest)
+        or_fail = checks.truth(self.or_fail, "planner.or_fail")
+        object.__setattr__(self, "or_fail", or_fail)
         if self.time_limit is not None:
             limit = checks.number(self.time_limit, "planner.time_limit", limits.TIME_LIMIT)
             object.__setattr__(self, "time_limit", limit)

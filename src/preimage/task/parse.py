@@ -61,6 +61,8 @@ PLANNER = (
     "time_limit",
     "max_regions",
     "arc_tolerance",
+    "resolution",
+    "or_fail",
 )
 INFINITY = ("inf", ".inf")
 NONE = "none"
@@ -302,6 +304,8 @@ def _options(value: object) -> PlannerOptions:
         mapping["time_limit"] = None
     elif "time_limit" in mapping:
         checks.number(mapping["time_limit"], "planner.time_limit", limits.TIME_LIMIT)
+    if "resolution" in mapping:
+        mapping["resolution"] = _degrees(mapping["resolution"], "planner.resolution")
     return PlannerOptions(**mapping)
 
 

@@ -171,6 +171,8 @@ _PLANNER: Schema = dict(
             {"oneOf": [{"const": NONE}, _number(limits.TIME_LIMIT)], "default": NONE},
             {**_number(limits.REGIONS, "integer"), "default": 10_000},
             {**_number(limits.ARC_TOLERANCE), "default": 0.005},
+            {**_number(limits.DIRECTION_RESOLUTION), "default": 0.1},
+            {"type": "boolean", "default": False},
         ),
         strict=True,
     )

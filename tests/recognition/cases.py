@@ -68,6 +68,7 @@ def outside_by_feature(case: Case) -> list[tuple[int, BaseGeometry]]:
     free = shapely.difference(domain.area.geometry, case.target.area.geometry)
     parts = [(2 * len(space.contact), shapely.buffer(free, -1e-7))]
     rest = contact_set.difference(domain.contact, case.target.contact, near)
+    rest = contact_set.without_outermost(rest, space.contact)
     ends = [space.contact.at(rest.edge, end) for end in (rest.low, rest.high)]
     for edge, low, high in zip(rest.edge.tolist(), *ends, strict=True):
         parts.append((edge, shapely.LineString([low, high])))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from preimage.configuration import contact_set
 from preimage.configuration.region import Region, union
 from preimage.preimages.preimage import Preimage, Target
 from preimage.preimages.setting import Command, Setting
@@ -67,21 +68,33 @@ def reach(
     setting: Setting, goal: Region, direction: float, method: Method, target: Target
 ) -> Preimage:
     """The preimage that aims at this part of the goal, and the conditions that end its motion."""
+    return reach_any(setting, (goal,), direction, method, target)
+
+
+def reach_any(
+    setting: Setting,
+    goals: tuple[Region, ...],
+    direction: float,
+    method: Method,
+    target: Target,
+) -> Preimage:
+    """The preimage of several goals that aims at this part of them (theory 7, paper 8)."""
     command = setting.command(direction)
     reached = backproject(setting.space, target.region, command.sources)
-    region = reached.region
+    found, contact = reached.region, setting.space.contact
+    region = Region(found.area, contact_set.without_outermost(found.contact, contact))
     conditions: list[Condition] = []
     if not target.sticking.is_empty:
         stuck = sticking_termination(setting, command, region)
         if stuck is None:  # no bound on the time that the motion takes
-            return reach(setting, goal, direction, method, Target.of_kernel(target.kernel))
+            return reach_any(setting, goals, direction, method, Target.of_kernel(target.kernel))
         conditions.append(stuck)
     if not target.kernel.is_empty:
         conditions.append(ReadingCondition(domain=None))
     return Preimage(
         region=region,
         direction=direction,
-        goal=goal,
+        goals=goals,
         method=method,
         target=target,
         termination=tuple(conditions),

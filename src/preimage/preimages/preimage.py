@@ -34,7 +34,9 @@ class Target:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Preimage(Shown):
-    """A region from which a motion along `direction` ends in `goal`, and is known to (paper 4).
+    """A region from which a motion along `direction` surely ends in a goal (paper 4, 8).
+
+    Which of the goals it is, is known when the motion ends.
 
     Parameters
     ----------
@@ -47,8 +49,13 @@ class Preimage(Shown):
 
     region: Region
     direction: float
-    goal: Region
+    goals: tuple[Region, ...]
     method: Method
     target: Target
     termination: tuple[Condition, ...]
     backprojection: Backprojection
+
+    @property
+    def goal(self) -> Region:
+        """The goal, where there is one alone."""
+        return self.goals[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from preimage.configuration import contact_set
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
 from preimage.geometry.angles import unit, wrap
@@ -25,9 +26,9 @@ def sticking_features(goal: Region, command: Command) -> Region:
     contact = goal.contact
     on = edges[contact.edge]
     held = contact.vertices[vertices[contact.vertices]]
-    return Region(
-        Area.empty(), ContactSet(contact.edge[on], contact.low[on], contact.high[on], held)
-    )
+    found = ContactSet(contact.edge[on], contact.low[on], contact.high[on], held)
+    space = command.setting.space
+    return Region(Area.empty(), contact_set.without_outermost(found, space.contact))
 
 
 def sticking_termination(setting: Setting, command: Command, preimage: Region) -> Condition | None:

@@ -11,6 +11,7 @@ from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry import inflate
 from preimage.geometry.area import Area
+from preimage.recognition.confusion import confusion_radius
 from preimage.recognition.outside import Domain, outside
 from preimage.recognition.readings import Readings, alike, alike_pairs
 from preimage.recognition.surroundings import Meetings, surroundings
@@ -52,8 +53,7 @@ def kernel(
     """
     if np.isinf(uncertainty.position):
         return _without_position(space, readings, target, domain)
-    near = space.tolerance.length
-    radius = 2.0 * max(uncertainty.position, near) + near
+    radius = confusion_radius(space, uncertainty)
     around = surroundings(space, target, radius, domain)
     contact = _contact_kernel(space, readings, target.contact, around.meetings)
     if around.straight.is_empty:
@@ -72,13 +72,17 @@ def kernel(
 def _contact_kernel(
     space: ConfigurationSpace, readings: Readings, target: ContactSet, near: Meetings
 ) -> ContactSet:
-    """What of contact space in the target is not near to anything that is alike."""
+    """What of contact space in the target is not near to anything that is alike.
+
+    Without what is at the open border: who is there has escaped.
+    """
     met = alike_pairs(readings, near.edge, near.edge_other)
     confused = alike_pairs(readings, readings.size + near.vertex, near.vertex_other)
     cut = ContactSet(
         near.edge[met], near.near[met], near.far[met], np.unique(near.vertex[confused])
     )
-    return contact_set.difference(target, cut, space.tolerance.length)
+    left = contact_set.difference(target, cut, space.tolerance.length)
+    return contact_set.without_outermost(left, space.contact)
 
 
 def _without_position(
@@ -96,6 +100,7 @@ def _without_position(
         told &= ~alike(readings, int(other), features)
     keep, corner = told[: len(own.edge)], told[len(own.edge) : -1]
     contact = ContactSet(own.edge[keep], own.low[keep], own.high[keep], own.vertices[corner])
+    contact = contact_set.without_outermost(contact, space.contact)
     return Region(target.area if told[-1] else Area.empty(), contact)
 
 

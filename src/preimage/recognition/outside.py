@@ -75,9 +75,13 @@ def area_outside(
 
 
 def contact_outside(space: ConfigurationSpace, target: Region, domain: Domain = None) -> ContactSet:
-    """The part of contact space in the domain that lies outside the target, closed on each edge."""
+    """The part of contact space in the domain that lies outside the target, closed on each edge.
+
+    Without the vertices at the open border: who is there has escaped, and no motion may lead there.
+    """
     whole = ContactSet.whole(space.contact) if domain is None else domain.contact
-    return contact_set.difference(whole, target.contact, space.tolerance.length)
+    rest = contact_set.difference(whole, target.contact, space.tolerance.length)
+    return contact_set.without_outermost(rest, space.contact)
 
 
 def contact_segments(contact: ContactSpace, part: ContactSet) -> Segments:

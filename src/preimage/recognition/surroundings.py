@@ -87,9 +87,9 @@ def surroundings(
     free = Area.empty() if box is None else area_outside(space, target, domain, box)
     points, following = border(free)
     rim = border_segments(contact, points, following)
-    meetings = _meetings(space, target.contact, together(rest, rim), radius)
+    near = meetings(space, target.contact, together(rest, rim), radius)
     if domain is None:
-        meetings = _joined(meetings, _beside(space, target))
+        near = _joined(near, _beside(space, target))
 
     straight, wedges, hidden = target.area, Wedges.none(), rest.part(slice(0, 0))
     if not target.area.is_empty:
@@ -103,7 +103,7 @@ def surroundings(
             hidden = hidden.within(bounds, margin)  # beside the rest lies `free`
         if len(hidden):
             hidden = _off_border(space, hidden, rim)
-    return Surroundings(meetings, straight, wedges, hidden)
+    return Surroundings(near, straight, wedges, hidden)
 
 
 def _box(space: ConfigurationSpace, target: Region, domain: Domain, margin: float) -> Box | None:
@@ -123,10 +123,15 @@ def _box(space: ConfigurationSpace, target: Region, domain: Domain, margin: floa
     return float(xmin), float(ymin), float(xmax), float(ymax)
 
 
-def _meetings(
+def meetings(
     space: ConfigurationSpace, part: ContactSet, sources: Segments, radius: float
 ) -> Meetings:
-    """Which stretches of edges, and which vertices, have which features nearer than `radius`."""
+    """Which stretches of edges, and which vertices, have which features nearer than `radius`.
+
+    Parameters
+    ----------
+    radius : positive, finite.
+    """
     contact = space.contact
     low = np.minimum(sources.starts, sources.ends) - radius
     high = np.maximum(sources.starts, sources.ends) + radius
@@ -195,7 +200,7 @@ def _off_border(space: ConfigurationSpace, part: Segments, rim: Segments) -> Seg
     corners = part.feature[~on_edge] - len(contact)
     own = ContactSet.of(edge, np.minimum(*ends), np.maximum(*ends), corners, margin)
     # nearer than what the radius is larger by, so that nothing is lost beside what is cut out
-    on = _meetings(space, own, rim, 0.5 * margin)
+    on = meetings(space, own, rim, 0.5 * margin)
     cut = ContactSet(on.edge, on.near, on.far, np.unique(on.vertex))
     return contact_segments(contact, contact_set.difference(own, cut, margin))
 

@@ -6,11 +6,14 @@ import logging
 from collections.abc import Callable
 
 from preimage.configuration.goals import goal_region
-from preimage.configuration.start import start_region
+from preimage.configuration.region import Region
+from preimage.configuration.start import Start, start_region
 from preimage.errors import UnsupportedError
 from preimage.preimages.setting import Setting
+from preimage.search.conditional import Layers, layers
 from preimage.search.limits import Limits, Progress
 from preimage.search.linear import Node, Outcome, search
+from preimage.search.policy import policy
 from preimage.strategy.strategy import Motion, Statistics, Status, Strategy, StrategyRegion
 from preimage.task.options import Continuous, StrategyKind, Termination
 from preimage.task.task import Task
@@ -45,11 +48,8 @@ def plan(
     'solved'
     """
     options = task.options
-    directions = options.directions
-    if isinstance(directions, Continuous):
+    if isinstance(options.directions, Continuous):
         raise UnsupportedError("planner.directions", "continuous directions are not available yet")
-    if options.strategy is not StrategyKind.LINEAR:
-        raise UnsupportedError("planner.strategy", "conditional strategies are not available yet")
     if options.termination is not Termination.INSTANTANEOUS:
         rule = f"{options.termination.value} conditions are not available yet"
         raise UnsupportedError("planner.termination", rule)
@@ -57,19 +57,83 @@ def plan(
     setting = Setting.of(task)
     goal = goal_region(task, setting.space)
     start = start_region(task, setting.space)
+    find = _conditional if options.strategy is StrategyKind.CONDITIONAL else _linear
+    strategy = find(task, setting, goal, start, limits, progress)
+    logger.info("%d regions in %.3f s", strategy.statistics.regions, limits.seconds)
+    return strategy
+
+
+def _linear(
+    task: Task,
+    setting: Setting,
+    goal: Region,
+    start: Start,
+    limits: Limits,
+    progress: Callable[[Progress], None] | None,
+) -> Strategy:
+    options = task.options
+    assert not isinstance(options.directions, Continuous)
     outcome = search(
         setting,
         goal,
         start,
-        directions,
+        options.directions,
         options.method,
         options.search,
         options.max_steps,
         limits,
         progress,
     )
-    logger.info("%d regions in %.3f s", len(outcome.nodes), limits.seconds)
     return _strategy(task, setting, outcome, limits.seconds)
+
+
+def _conditional(
+    task: Task,
+    setting: Setting,
+    goal: Region,
+    start: Start,
+    limits: Limits,
+    progress: Callable[[Progress], None] | None,
+) -> Strategy:
+    options = task.options
+    assert not isinstance(options.directions, Continuous)
+    found = layers(
+        setting,
+        [goal],
+        start,
+        options.directions,
+        options.method,
+        options.max_steps,
+        limits,
+        progress,
+    )
+    return _policy(task, setting, found, limits.seconds)
+
+
+def _policy(task: Task, setting: Setting, found: Layers, seconds: float) -> Strategy:
+    statistics = Statistics(
+        regions=len(found.regions),
+        seconds=seconds,
+        preimages=found.computed,
+        pruned=found.pruned,
+        layers=max(known.rank for known in found.regions),
+    )
+    goals = tuple(known for known in found.regions if known.preimage is None)
+    if found.start:
+        status = Status.SOLVED
+    else:
+        status = Status.STOPPED if found.stopped else Status.UNSOLVABLE
+    return Strategy(
+        task=task,
+        space=setting.space,
+        status=status,
+        kind=StrategyKind.CONDITIONAL,
+        regions=policy(setting, found.start or tuple(found.regions), goals),
+        start=tuple(known.id for known in found.start),
+        steps=(),
+        statistics=statistics,
+        reason=found.stopped or "",
+    )
 
 
 def _strategy(task: Task, setting: Setting, outcome: Outcome, seconds: float) -> Strategy:
@@ -108,5 +172,6 @@ def _region(node: Node) -> StrategyRegion:
             goals=(node.parent.id,),
             target=made.target.region,
             termination=made.termination,
+            margin=node.margin,
         )
     return StrategyRegion(node.id, node.rank, node.region, motion)

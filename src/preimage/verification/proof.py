@@ -20,17 +20,16 @@ import numpy as np
 
 from preimage.configuration import contact_set
 from preimage.configuration.contact_set import ContactSet
-from preimage.configuration.region import Region, union
+from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry import area as areas
-from preimage.geometry.area import Area
-from preimage.recognition.termination import ReadingCondition
 from preimage.strategy.strategy import Motion, Strategy, StrategyRegion
+from preimage.verification.certain import Aim, aim_of
 from preimage.verification.features import Features, features_of
 from preimage.verification.flights import leaving
 from preimage.verification.forward import ForwardProjection, forward_projection
 from preimage.verification.reading_sets import ReadingSets, reading_sets
-from preimage.verification.recognised import Confusion, Recognised, recognised
+from preimage.verification.recognised import Confusion
 from preimage.verification.slabs import BORDER
 from preimage.verification.trajectory import sliding_angles, sliding_speed
 
@@ -39,24 +38,6 @@ MARGIN = 16.0
 
 FLAT = 256.0
 """On edges that are all but parallel to a side of the cone, by so many times more at most."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Aim:
-    """What of a motion's target is certain.
-
-    Parameters
-    ----------
-    told, held : by reading, and since it holds every motion; for each goal.
-    """
-
-    told: tuple[Recognised, ...]
-    held: tuple[Recognised, ...]
-
-    @property
-    def margin(self) -> float:
-        """By how much the worst reading is not misread."""
-        return min((one.margin for one in (*self.told, *self.held)), default=math.inf)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,47 +79,16 @@ def case_of(strategy: Strategy, region: StrategyRegion) -> Case:
     slack, control = space.tolerance.angle, task.uncertainty.control
     features = features_of(space.contact, motion.direction, control, task.friction, slack)
     sets = reading_sets(space.contact, motion.direction, task.uncertainty, task.friction, slack)
-    aim = _aim(strategy, motion, features, sets)
-    stop = Region.empty()
-    for one in (*aim.told, *aim.held):
-        stop = union(stop, one.region, space.tolerance)
+    aim = aim_of(strategy, motion, features, sets)
     projection = forward_projection(
         space,
         shrunk(region.region, space, (motion.direction - control, motion.direction + control)),
         motion.direction,
         control,
         task.friction,
-        stop,
+        aim.region,
     )
-    return Case(strategy, region, motion, features, sets, aim, stop, projection)
-
-
-def _aim(strategy: Strategy, motion: Motion, features: Features, sets: ReadingSets) -> Aim:
-    """The certain parts of a target."""
-    space, position = strategy.space, strategy.task.uncertainty.position
-    goals = [strategy.region(goal).region for goal in motion.goals]
-    told = [
-        recognised(space, sets, goal, motion.target, position, condition.domain)
-        for condition in motion.termination
-        if isinstance(condition, ReadingCondition)
-        for goal in goals
-    ]
-    held = []
-    if any(not isinstance(one, ReadingCondition) for one in motion.termination):
-        sure = _holding(motion.target, features)
-        # once the motion rests, it is known to be in one of these places
-        held = [recognised(space, sets, goal, sure, position, sure) for goal in goals]
-    return Aim(tuple(told), tuple(held))
-
-
-def _holding(target: Region, features: Features) -> Region:
-    """The part of a target that holds every motion for sure."""
-    contact = target.contact
-    on = features.surely[contact.edge]
-    corners = contact.vertices[features.surely_vertex[contact.vertices]]
-    return Region(
-        Area.empty(), ContactSet(contact.edge[on], contact.low[on], contact.high[on], corners)
-    )
+    return Case(strategy, region, motion, features, sets, aim, aim.region, projection)
 
 
 def shrunk(region: Region, space: ConfigurationSpace, cone: tuple[float, float]) -> Region:

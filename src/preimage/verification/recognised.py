@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from preimage.configuration import contact_set
-from preimage.configuration.contact import ContactSpace, Floats, Ints
+from preimage.configuration.contact import Bools, ContactSpace, Floats, Ints
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
@@ -151,6 +153,60 @@ def recognised(
         tolerance,
     )
     return Recognised(Region(area, contact), search.margin, tuple(search.confusions))
+
+
+def told_by_some(
+    space: ConfigurationSpace,
+    sets: ReadingSets,
+    goals: Sequence[Region],
+    vertices: Ints,
+    position: float,
+    domain: Region | None = None,
+) -> Ints:
+    """The vertices at which each reading tells some goal, though none is told by all (theory 7).
+
+    Force by force: all ends of the intervals that others can read, and the middles between them.
+    """
+    rests = [elsewhere(space, goal, domain) for goal in goals]
+    reach = 2.0 * blurred(position, space.tolerance.length)
+    found = []
+    for vertex in vertices.tolist():
+        near = []
+        for goal, rest in zip(goals, rests, strict=True):
+            if goal.contact.has_vertex(vertex):
+                place = space.contact.points[[vertex]]
+                gaps = apart((place, place), (rest.starts, rest.ends))[0]
+                close = gaps + 0.5 * space.tolerance.length < reach
+                near.append(np.unique(rest.feature[close | math.isinf(reach)]))
+        if near and all(
+            any(not np.any(can[others]) for others in near)
+            for can in _readings_at(sets, len(space.contact) + vertex, np.concatenate(near))
+        ):
+            found.append(vertex)
+    return np.array(found, dtype=np.int32)
+
+
+def _readings_at(sets: ReadingSets, feature: int, others: Ints) -> Iterator[Bools]:
+    """Which features can read what can be read at one, reading by reading."""
+    if sets.zero[feature]:
+        yield sets.zero
+    low, high = float(sets.low[feature]), float(sets.high[feature])
+    if low > high:
+        return
+    ends = {low, high}
+    for other in np.unique(others).tolist():
+        for turn in (-math.tau, 0.0, math.tau):
+            for end in (sets.low[other] - sets.tolerance, sets.high[other] + sets.tolerance):
+                if low < end + turn < high:
+                    ends.add(float(end) + turn)
+    places = sorted(ends)
+    for force in (*places, *(0.5 * (a + b) for a, b in pairwise(places))):
+        can = np.zeros(len(sets.zero), dtype=np.bool_)
+        for turn in (-math.tau, 0.0, math.tau):
+            can |= (sets.low + turn - sets.tolerance <= force) & (
+                force <= sets.high + turn + sets.tolerance
+            )
+        yield can
 
 
 class _Search:

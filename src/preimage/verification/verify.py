@@ -133,8 +133,8 @@ def _graph(strategy: Strategy) -> list[Finding]:
         if any(ranks.get(goal, -1) >= region.rank for goal in goals):
             words = f"the rank does not fall from region {region.id} to its goals"
             findings.append(Finding(Fault.GRAPH, Verdict.UNPROVEN, words))
-        if (region.motion is None) != (region.id == 0):
-            words = f"region {region.id} must have a motion, unless it is the goal, 0"
+        if (region.motion is None) != (region.id == 0 or region.failure):
+            words = f"region {region.id} must have a motion, unless it is the goal, 0, or failure"
             findings.append(Finding(Fault.GRAPH, Verdict.UNPROVEN, words))
     missing = sorted(named - set(ranks))
     if missing or len(ranks) < len(strategy.regions):

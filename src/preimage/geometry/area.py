@@ -90,6 +90,11 @@ class Area:
         return float(self.geometry.area)
 
     @property
+    def perimeter(self) -> float:
+        """The length of the border, holes included."""
+        return float(self.geometry.length)
+
+    @property
     def bounds(self) -> tuple[float, float, float, float]:
         """`xmin, ymin, xmax, ymax`; NaN for the empty area."""
         xmin, ymin, xmax, ymax = self.geometry.bounds
@@ -136,6 +141,14 @@ class Area:
         shapely.prepare(self.geometry)
         inside: NDArray[np.bool_] = shapely.intersects_xy(self.geometry, points[:, 0], points[:, 1])
         return inside
+
+    @property
+    def inner_point(self) -> tuple[float, float]:
+        """A point well inside; NaN for the empty area."""
+        if self.is_empty:
+            return float("nan"), float("nan")
+        point = max(self.parts, key=lambda part: part.measure).geometry.representative_point()
+        return float(point.x), float(point.y)
 
     def depth(self, x: float, y: float) -> float:
         """Distance of a point from the area's border; infinite if there is none."""

@@ -92,7 +92,13 @@ def outer_stadiums(
     >>> np.round(capsule.bounds, 9).tolist(), bool(6 + np.pi < capsule.measure < 6.02 + np.pi)
     ([-1.0, -1.0, 4.0, 1.0], True)
     """
-    pieces = stadium_pieces(starts, ends, radius, tangent_normals(arc_tolerance, tuple(touch)))
+    return united_pieces(
+        stadium_pieces(starts, ends, radius, tangent_normals(arc_tolerance, tuple(touch)))
+    )
+
+
+def united_pieces(pieces: Pieces) -> Area:
+    """The union of pieces."""
     return Area.of(shapely.union_all(pieces)) if len(pieces) else Area.empty()
 
 

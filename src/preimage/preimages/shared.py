@@ -1,8 +1,8 @@
 """Aiming at several goals at once: what of each is told, by reading or by rest (theory 7, paper 8).
 
 Once a motion rests, it is known to be on a feature of the target that sticks for sure. Which goal
-that is must be read from this alone: of two pieces that may be confused, and of which no goal
-holds both, one has to go, and dropping it frees the other.
+that is must be read from this alone: of two pieces that may be confused, and that no goal holds
+together, one has to go, and dropping it frees the other.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from functools import reduce
 import numpy as np
 
 from preimage.configuration import contact_set
+from preimage.configuration.contact import Bools
 from preimage.configuration.contact_set import ContactSet
 from preimage.configuration.region import Region
 from preimage.geometry.area import Area
@@ -26,21 +27,22 @@ from preimage.recognition.confusion import told_apart, told_together
 from preimage.recognition.kernel import kernel
 from preimage.task.options import Method
 
+MOST_PIECES = 16
+"""Of what confuses something else so many pieces, the largest, are tried on their own."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shares:
-    """What of several goals a motion can be known to have attained, goal by goal.
+    """What of several goals a motion can be known to have attained.
 
     Parameters
     ----------
     told : the kernels of the goals, without what had to go.
-    held : what of the goals sticks for sure, and is told from all the rest of it: disjoint.
-    dropped : the places, among the goals, of those that lost a part to another goal.
+    dropped : the places, among the goals, of those of which something that sticks had to go.
     target : all of them together, and the vertices that are told by one goal or another.
     """
 
     told: tuple[Region, ...]
-    held: tuple[ContactSet, ...]
     dropped: tuple[int, ...]
     target: Target
 
@@ -61,148 +63,140 @@ def share_out(
     told: Sequence[Region],
     command: Command,
     method: Method,
-    kept: Sequence[ContactSet] = (),
-    first: int | None = None,
 ) -> Shares:
     """What a motion that aims at all goals at once can be known to have attained.
 
     Parameters
     ----------
-    goals, told : the goals, the dearest first, and their parts of `told_part`.
-    kept : what the first of the goals were allotted before, none of which is dropped.
-    first : the place of a goal whose parts come before all others, those that were kept too.
+    goals, told : the goals, and their parts of `told_part`.
     """
     space = setting.space
     near = space.tolerance.length
-    held: tuple[ContactSet, ...] = tuple(ContactSet.empty() for _ in goals)
+    pool = ContactSet.empty()
     dropped: tuple[int, ...] = ()
-    surely = _surely(told, command)
     if method is not Method.KERNEL:
-        held, dropped = _allotted(setting, goals, surely, command, kept, first)
-        rest = _union(held, near)
-        told = [_without(part, sure, rest, near) for part, sure in zip(told, surely, strict=True)]
+        parts = [sticking_features(goal, command).contact for goal in goals]
+        pool = resting(setting, goals, union_of(parts, near), command)
+        dropped = tuple(
+            place for place, part in enumerate(parts) if not contact_set.is_subset(part, pool, near)
+        )
+        told = [Region(one.area, told_at_rest(one.contact, pool, command)) for one in told]
     areas = [part.area for part in told if not part.area.is_empty]
     core = Region(
         united(areas, space.tolerance.grid) if areas else Area.empty(),
-        _union([part.contact for part in told], near),
+        union_of([part.contact for part in told], near),
     )
-    sticking = Region(Area.empty(), _union(held, near))
+    sticking = Region(Area.empty(), pool)
     if len(goals) > 1 and method is not Method.STICKING:
         core = _with_vertices(setting, goals, core, sticking, command, method)
-    both = Region(core.area, contact_set.union(core.contact, sticking.contact, near))
-    return Shares(tuple(told), held, dropped, Target(both, sticking, core))
+    both = Region(core.area, contact_set.union(core.contact, pool, near))
+    return Shares(tuple(told), dropped, Target(both, sticking, core))
 
 
-def _surely(told: Sequence[Region], command: Command) -> list[ContactSet]:
-    return [sticking_features(part, command).contact for part in told]
-
-
-def _without(part: Region, sure: ContactSet, rest: ContactSet, near: float) -> Region:
-    """A kernel without what holds motions for sure but is not told from the rest of that."""
-    gone = contact_set.difference(sure, rest, near)
-    if gone.is_empty:
-        return part
-    return Region(part.area, contact_set.difference(part.contact, gone, near))
+def told_at_rest(told: ContactSet, pool: ContactSet, command: Command) -> ContactSet:
+    """The contact of a kernel without what sticks for sure but is not in the pool that is kept."""
+    near = command.setting.space.tolerance.length
+    surely = sticking_features(Region(Area.empty(), told), command).contact
+    gone = contact_set.difference(surely, pool, near)
+    return told if gone.is_empty else contact_set.difference(told, gone, near)
 
 
 # --- what holds motions for sure ------------------------------------------------------------
 
-Allotment = tuple[tuple[ContactSet, ...], tuple[int, ...]]
 
-
-def _allotted(
+def resting(
     setting: Setting,
     goals: Sequence[Region],
-    surely: Sequence[ContactSet],
+    sticking: ContactSet,
     command: Command,
-    kept: Sequence[ContactSet],
-    first: int | None,
-) -> Allotment:
-    """Which parts of the goals that stick for sure are kept, and for which goal.
-
-    Where two goals' parts must not both stay, it is tried which of the goals is served first, and
-    the least of all losses is taken.
-    """
-    every = [sticking_features(goal, command).contact for goal in goals]
-    order = list(range(len(goals)))
-    if first is not None:
-        order.remove(first)
-        turns = [[(first, every[first])]]
-        kept = ()
-    else:
-        turns = [[]]
-    best = _in_turn(setting, goals, surely, every, command, kept, turns[0], order)
-    if first is not None:
-        return best
-    for goal in best[1]:
-        others = [one for one in order if one != goal]
-        favoured = [(goal, every[goal])]
-        other = _in_turn(setting, goals, surely, every, command, kept, favoured, others)
-        if _amount(other[0]) > _amount(best[0]):
-            best = other
-    return best
-
-
-def _in_turn(
-    setting: Setting,
-    goals: Sequence[Region],
-    surely: Sequence[ContactSet],
-    every: Sequence[ContactSet],
-    command: Command,
-    kept: Sequence[ContactSet],
-    favoured: list[tuple[int, ContactSet]],
-    order: list[int],
-) -> Allotment:
-    """Parts are added one after the other, as far as they confuse nothing that is there."""
-    near = setting.space.tolerance.length
-    held = [*kept, *(ContactSet.empty() for _ in range(len(goals) - len(kept)))]
-    pool = _union(held, near)
-    dropped: dict[int, None] = {}
-    # what readings tell comes first: it confuses the others least
-    candidates = [*favoured, *((one, surely[one]) for one in order)]
-    candidates += [(one, every[one]) for one in order]
-    for place, candidate in candidates:
-        new = contact_set.difference(candidate, pool, near)
-        if new.is_empty:
-            continue
-        fitting = _fitting(setting, goals, held, pool, command, place, new)
-        if not contact_set.difference(new, fitting, near).is_empty:
-            dropped[place] = None
-        held[place] = contact_set.union(held[place], fitting, near)
-        pool = contact_set.union(pool, fitting, near)
-    lost = (place for place in dropped if not contact_set.is_subset(every[place], pool, near))
-    return tuple(held), tuple(lost)
-
-
-def _fitting(
-    setting: Setting,
-    goals: Sequence[Region],
-    held: Sequence[ContactSet],
-    pool: ContactSet,
-    command: Command,
-    place: int,
-    new: ContactSet,
+    kept: ContactSet | None = None,
 ) -> ContactSet:
-    """What of a part of a goal may be added to what is held: neither confuses the other."""
-    near, readings = setting.space.tolerance.length, command.readings
-    arguments = setting.space, readings
-    foreign = contact_set.difference(pool, goals[place].contact, near)
-    new = told_apart(*arguments, new, foreign, setting.uncertainty)
-    for other, part in enumerate(held):
-        if other == place or part.is_empty or new.is_empty:
+    """A large part S of what sticks for sure in which each point tells some goal.
+
+    `S <= U_i kernel(T_i; v, S)`: what cannot be told from all of S outside a goal, for any of its
+    goals, goes; then what has gone comes back, piece by piece, the largest first, as far as it
+    confuses nothing that is there.
+
+    Parameters
+    ----------
+    sticking : what of the goals sticks for sure.
+    kept : a part that told some goal before, when the goals held no more; all of it stays.
+    """
+    near = setting.space.tolerance.length
+    kept = ContactSet.empty() if kept is None else kept
+    pool = contact_set.union(sticking, kept, near)
+    while True:
+        doubtful = _untold(setting, goals, pool, command)
+        if doubtful.is_empty:
+            break
+        # what was kept is told, were it not for what is new
+        new = contact_set.difference(pool, kept, near)
+        lasting = contact_set.intersection(doubtful, kept, near)
+        rest = contact_set.difference(new, doubtful, near)
+        clear = told_apart(setting.space, command.readings, rest, lasting, setting.uncertainty)
+        smaller = contact_set.union(kept, clear, near)
+        if contact_set.is_subset(pool, smaller, near):
+            smaller = kept  # no wider than what is taken for nothing
+        pool = smaller
+        if contact_set.is_subset(pool, kept, near):
+            pool = kept
+            break
+    gone = contact_set.difference(sticking, pool, near)
+    for piece in _pieces(gone)[:MOST_PIECES]:
+        more = contact_set.union(pool, piece, near)
+        doubtful = _untold(setting, goals, more, command)
+        if contact_set.is_subset(doubtful, piece, near):
+            pool = contact_set.difference(more, doubtful, near)
+    return pool
+
+
+def told_of(setting: Setting, goal: Region, pool: ContactSet, command: Command) -> ContactSet:
+    """`kernel(T; v, S)`: what of a pool that holds the robot surely tells a goal."""
+    near = setting.space.tolerance.length
+    own = contact_set.intersection(pool, goal.contact, near)
+    other = contact_set.difference(pool, goal.contact, near)
+    return told_apart(setting.space, command.readings, own, other, setting.uncertainty)
+
+
+def _untold(
+    setting: Setting, goals: Sequence[Region], pool: ContactSet, command: Command
+) -> ContactSet:
+    """What of a pool tells no goal; a goal that holds much of it is asked first."""
+    near = setting.space.tolerance.length
+    left = pool
+    own = [contact_set.intersection(pool, goal.contact, near) for goal in goals]
+    order = sorted(range(len(goals)), key=lambda place: _amount(own[place]), reverse=True)
+    for place in order:
+        if left.is_empty:
+            break
+        if contact_set.intersection(left, own[place], near).is_empty:
             continue
-        alien = contact_set.difference(new, goals[other].contact, near)
-        apart = told_apart(*arguments, alien, part, setting.uncertainty)
-        new = contact_set.difference(new, contact_set.difference(alien, apart, near), near)
-    return new
+        told = told_of(setting, goals[place], pool, command)
+        left = contact_set.difference(left, told, near)
+    return left
 
 
-def _amount(held: Iterable[ContactSet]) -> tuple[float, int]:
-    parts = list(held)
-    return sum(one.total_length for one in parts), sum(len(one.vertices) for one in parts)
+def _pieces(part: ContactSet) -> list[ContactSet]:
+    """Intervals and vertices one by one, the longest first."""
+    none = np.empty(0)
+    pieces = [
+        ContactSet(part.edge[one], part.low[one], part.high[one], np.empty(0, np.int32))
+        for one in (slice(place, place + 1) for place in range(len(part.edge)))
+    ]
+    pieces.sort(key=_amount, reverse=True)
+    corners = [
+        ContactSet(np.empty(0, np.int32), none, none, part.vertices[place : place + 1])
+        for place in range(len(part.vertices))
+    ]
+    return pieces + corners
 
 
-def _union(parts: Iterable[ContactSet], near: float) -> ContactSet:
+def _amount(part: ContactSet) -> tuple[float, int]:
+    return part.total_length, len(part.vertices)
+
+
+def union_of(parts: Iterable[ContactSet], near: float) -> ContactSet:
+    """The union of parts of contact space."""
     return reduce(
         lambda one, other: contact_set.union(one, other, near),
         (part for part in parts if not part.is_empty),
@@ -225,17 +219,23 @@ def _with_vertices(
 
     Only those are looked for that may hold the motion: past others it goes.
     """
-    _, may_stick = command.sources.where(Behaviour.MAY_STICK)
-    if method is Method.COMBINED:  # what sticks for sure has been allotted
-        _, surely = command.sources.where(Behaviour.STICKS_SURELY)
-        may_stick = may_stick & ~surely
     known = np.union1d(core.contact.vertices, sticking.contact.vertices)
     inside = np.unique(np.concatenate([goal.contact.vertices for goal in goals]))
-    missing = np.setdiff1d(inside[may_stick[inside]], known)
-    missing = np.setdiff1d(missing, setting.space.contact.outermost)
+    missing = np.setdiff1d(inside[may_be_told(command, method)[inside]], known)
     if not len(missing):
         return core
     found = told_together(setting.space, command.readings, goals, missing, setting.uncertainty)
     contact = core.contact
     vertices = np.union1d(contact.vertices, found).astype(np.int32)
     return Region(core.area, ContactSet(contact.edge, contact.low, contact.high, vertices))
+
+
+def may_be_told(command: Command, method: Method) -> Bools:
+    """The vertices of which it matters whether some goal is told there: those that may hold."""
+    _, may_stick = command.sources.where(Behaviour.MAY_STICK)
+    matters = may_stick.copy()
+    if method is Method.COMBINED:  # what sticks for sure is told at rest
+        _, surely = command.sources.where(Behaviour.STICKS_SURELY)
+        matters &= ~surely
+    matters[command.setting.space.contact.outermost] = False
+    return matters

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from preimage.configuration.space import ConfigurationSpace
 from preimage.geometry.angles import TAU
 from preimage.recognition.outside import Domain, contact_segments, outside
 from preimage.recognition.readings import Readings, alike, alike_pairs
-from preimage.recognition.surroundings import meetings, surroundings
+from preimage.recognition.surroundings import Meetings, meetings, surroundings
 from preimage.task.uncertainty import Uncertainty
 
 Forces = list[tuple[float, float]]
@@ -77,41 +78,79 @@ def told_together(
     ----------
     vertices : candidates.
     """
-    left = {int(vertex): None for vertex in vertices}
-    bad: dict[int, tuple[bool, Forces]] = {}
+    doubts = Doubts.at(readings, vertices)
     for goal in goals:
-        inside = [vertex for vertex in left if goal.contact.has_vertex(vertex)]
-        if not inside:
-            continue
-        confusing = _confusing(space, readings, goal, inside, uncertainty, domain)
+        if not np.isinf(uncertainty.position) and len(doubts.among(goal)):
+            near = surroundings(space, goal, confusion_radius(space, uncertainty), domain).meetings
+            doubts.narrow(space, readings, goal, near, domain)
+        else:
+            doubts.narrow(space, readings, goal, None, domain)
+    return doubts.settled
+
+
+@dataclass(slots=True, eq=False)
+class Doubts:
+    """What can be read at vertices that tells none of the goals seen so far.
+
+    Parameters
+    ----------
+    left : for each vertex whether 0 is such a reading, and which forces are; angles relative to
+        the middle of what can be read there.
+    """
+
+    left: dict[int, tuple[bool, Forces]]
+
+    @classmethod
+    def at(cls, readings: Readings, vertices: Ints) -> Doubts:
+        """All that can be read at vertices."""
+        return cls({int(vertex): _all_forces(readings, int(vertex)) for vertex in vertices})
+
+    @property
+    def settled(self) -> Ints:
+        """The vertices at which every reading tells some goal."""
+        told = [vertex for vertex, (zero, forces) in self.left.items() if not zero and not forces]
+        return np.array(sorted(told), dtype=np.int32)
+
+    def among(self, goal: Region) -> list[int]:
+        """The vertices in doubt that a goal holds."""
+        open_ = (vertex for vertex, (zero, forces) in self.left.items() if zero or forces)
+        return [vertex for vertex in open_ if goal.contact.has_vertex(vertex)]
+
+    def narrow(
+        self,
+        space: ConfigurationSpace,
+        readings: Readings,
+        goal: Region,
+        near: Meetings | None,
+        domain: Domain = None,
+    ) -> None:
+        """Take away the readings that tell one more goal.
+
+        Parameters
+        ----------
+        near : what is near to the goal's contact outside it; None without a position sensor: then
+            all is near.
+        """
+        inside = self.among(goal)
+        every = _outside(space, readings, goal, domain) if near is None and inside else None
         for vertex in inside:
-            zero, forces = bad.get(vertex, _all_forces(readings, vertex))
-            others = confusing.get(vertex, np.empty(0, dtype=np.int32))
+            if near is not None:
+                others = near.vertex_other[near.vertex == vertex]
+            else:
+                assert every is not None
+                others = every
+            zero, forces = self.left[vertex]
             here = _in_common(readings, vertex, others)
-            bad[vertex] = zero and here[0], _both(forces, here[1])
-    told = [vertex for vertex, (zero, forces) in bad.items() if not zero and not forces]
-    return np.array(sorted(told), dtype=np.int32)
+            self.left[vertex] = zero and here[0], _both(forces, here[1])
 
 
-def _confusing(
-    space: ConfigurationSpace,
-    readings: Readings,
-    goal: Region,
-    vertices: list[int],
-    uncertainty: Uncertainty,
-    domain: Domain,
-) -> dict[int, Ints]:
-    """For each vertex the features outside the goal that its position may be mistaken for."""
-    if np.isinf(uncertainty.position):
-        rest = outside(space, goal, domain)
-        n = readings.size
-        others = [rest.contact.edge, n + rest.contact.vertices]
-        if not rest.area.is_empty:
-            others.append(np.array([readings.free], dtype=np.int32))
-        every = np.unique(np.concatenate(others)).astype(np.int32)
-        return dict.fromkeys(vertices, every)
-    near = surroundings(space, goal, confusion_radius(space, uncertainty), domain).meetings
-    return {vertex: near.vertex_other[near.vertex == vertex] for vertex in vertices}
+def _outside(space: ConfigurationSpace, readings: Readings, goal: Region, domain: Domain) -> Ints:
+    """All features that have a part outside a goal."""
+    rest = outside(space, goal, domain)
+    others = [rest.contact.edge, readings.size + rest.contact.vertices]
+    if not rest.area.is_empty:
+        others.append(np.array([readings.free], dtype=np.int32))
+    return np.unique(np.concatenate(others)).astype(np.int32)
 
 
 def _all_forces(readings: Readings, vertex: int) -> tuple[bool, Forces]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
 from preimage.configuration import contact_set
@@ -14,7 +17,8 @@ from preimage.geometry.area import Area
 from preimage.recognition.confusion import confusion_radius
 from preimage.recognition.outside import Domain, outside
 from preimage.recognition.readings import Readings, alike, alike_pairs
-from preimage.recognition.surroundings import Meetings, surroundings
+from preimage.recognition.segments import Segments
+from preimage.recognition.surroundings import Meetings, Surroundings, surroundings
 from preimage.task.uncertainty import Uncertainty
 
 
@@ -51,22 +55,98 @@ def kernel(
     The kernel, without slivers: no area is thinner, no interval shorter than the tolerance. Radii
     are taken larger by the tolerance, so that what touches within rounding stays on the safe side.
     """
-    if np.isinf(uncertainty.position):
-        return _without_position(space, readings, target, domain)
-    radius = confusion_radius(space, uncertainty)
-    around = surroundings(space, target, radius, domain)
-    contact = _contact_kernel(space, readings, target.contact, around.meetings)
-    if around.straight.is_empty:
-        return Region(Area.empty(), contact)
     rays = (readings.direction - uncertainty.control, readings.direction + uncertainty.control)
-    normals = inflate.tangent_normals(arc_tolerance, rays)
-    hidden = around.hidden.part(readings.zero[around.hidden.feature])
-    area = inflate.shrunk_by(
-        around.straight,
-        inflate.sector_pieces(around.wedges, radius, normals),
-        inflate.stadium_pieces(hidden.starts, hidden.ends, radius, normals),
-    )
-    return Region(inflate.without_slivers(area, space.tolerance.length), contact)
+    core = core_of(space, target, uncertainty, rays, domain, arc_tolerance=arc_tolerance)
+    return core.kernel(readings)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Core:
+    """What the kernels of one target have in common, whatever is commanded.
+
+    Parameters
+    ----------
+    target, domain : T and Delta.
+    area : the target's area without what is near to free space outside it.
+    around : what is near to the target outside it; None without a position sensor.
+    radius : how near; larger than 2 rho by the tolerance.
+    normals : of the tangents that replace arcs.
+    """
+
+    space: ConfigurationSpace
+    target: Region
+    domain: Domain
+    area: Area
+    around: Surroundings | None
+    radius: float
+    normals: inflate.Floats
+
+    def kernel(self, readings: Readings) -> Region:
+        """The kernel for one command."""
+        if self.around is None:
+            return _without_position(self.space, readings, self.target, self.domain)
+        contact = self.contact(readings)
+        hidden = self.hidden(readings)
+        if not len(hidden):
+            return Region(self.area, contact)
+        return Region(self.without(self.area, hidden), contact)
+
+    def contact(self, readings: Readings) -> ContactSet:
+        """The part of contact space in the kernel; there must be a position sensor."""
+        assert self.around is not None
+        near = self.around.meetings
+        return _contact_kernel(self.space, readings, self.target.contact, near)
+
+    def hidden(self, readings: Readings) -> Segments:
+        """Contact outside the target that reads 0, beside free space in it: to be kept away from.
+
+        There must be a position sensor.
+        """
+        assert self.around is not None
+        hidden = self.around.hidden
+        return hidden.part(readings.zero[hidden.feature])
+
+    def around_all(self, parts: Sequence[Segments]) -> Area:
+        """All that is near to some segments."""
+        starts = np.concatenate([part.starts for part in parts])
+        ends = np.concatenate([part.ends for part in parts])
+        both = np.unique(np.concatenate((starts, ends), axis=1), axis=0)
+        return inflate.united_pieces(
+            inflate.stadium_pieces(both[:, :2], both[:, 2:], self.radius, self.normals)
+        )
+
+    def without(self, area: Area, hidden: Segments) -> Area:
+        """An area without what is near to some segments."""
+        pieces = inflate.stadium_pieces(hidden.starts, hidden.ends, self.radius, self.normals)
+        rest = inflate.shrunk_by(area, pieces)
+        return inflate.without_slivers(rest, self.space.tolerance.length)
+
+
+def core_of(
+    space: ConfigurationSpace,
+    target: Region,
+    uncertainty: Uncertainty,
+    rays: Sequence[float],
+    domain: Domain = None,
+    *,
+    arc_tolerance: float = inflate.ARC_TOLERANCE,
+) -> Core:
+    """What the kernels of a target for several commands have in common; see `kernel`.
+
+    Parameters
+    ----------
+    rays : the sides of the control cones of all these commands, which touch what replaces arcs.
+    """
+    radius = confusion_radius(space, uncertainty)
+    normals = inflate.tangent_normals(arc_tolerance, tuple(rays))
+    if np.isinf(radius):
+        return Core(space, target, domain, target.area, None, radius, normals)
+    around = surroundings(space, target, radius, domain)
+    area = around.straight
+    if not area.is_empty:
+        area = inflate.shrunk_by(area, inflate.sector_pieces(around.wedges, radius, normals))
+        area = inflate.without_slivers(area, space.tolerance.length)
+    return Core(space, target, domain, area, around, radius, normals)
 
 
 def _contact_kernel(

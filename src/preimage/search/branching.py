@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol, TypeVar
+from dataclasses import dataclass, field
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from preimage.geometry import area as areas
 from preimage.geometry import inflate
 from preimage.geometry.area import Area
 from preimage.preimages.setting import Setting
-from preimage.recognition.outside import contact_segments, outside
+from preimage.recognition.outside import Outside, contact_segments, outside
 
 
 class Ranked(Protocol):
@@ -23,11 +24,9 @@ class Ranked(Protocol):
     def rank(self) -> int:
         """The most motions that remain."""
 
-
     @property
     def region(self) -> Region:
         """From where."""
-
 
 
 Choice = TypeVar("Choice", bound=Ranked)
@@ -36,16 +35,46 @@ MOST = 64
 """So many regions, the ones that leave least of the start out, are tried together."""
 
 
+@dataclass(slots=True, eq=False)
+class Branching(Generic[Choice]):
+    """Whether a start is solved by the regions known so far, and which ones it may choose from.
+
+    Parameters
+    ----------
+    known : all regions that were seen.
+    rest : the part of the start, if that is a region, in none of them.
+    """
+
+    setting: Setting
+    start: Start
+    known: list[Choice] = field(default_factory=list)
+    rest: Outside | None = None
+
+    def further(self, regions: Sequence[Choice]) -> tuple[Choice, ...]:
+        """See more regions; the ones to choose from, or none while the start is not solved."""
+        space, start = self.setting.space, self.start
+        self.known += regions
+        for known in sorted(regions, key=lambda one: one.rank):
+            if covered(start, known.region, space):
+                return (known,)
+        if start.kind is not StartKind.REGION or np.isinf(self.setting.uncertainty.position):
+            return ()
+        for known in regions:
+            left = start.region if self.rest is None else Region(self.rest.area, self.rest.contact)
+            if left.is_empty:
+                break
+            self.rest = outside(space, known.region, left)
+        if self.rest is None or not self.rest.is_empty:
+            return ()
+        return choices(self.setting, start, self.known)
+
+
 def choices(setting: Setting, start: Start, regions: Sequence[Choice]) -> tuple[Choice, ...]:
     """The regions of which the first reading surely tells one; none if it does not.
 
     One that holds the whole start is enough, the one with the fewest motions. Else the position
     is read once: the start I is solved iff every reading q leaves `I & D(q, rho)` inside one
     region, that is, iff no q is in `(I - P) (+) D(rho)` for all regions P (theory 7, paper 8).
-
-    Parameters
-    ----------
-    regions : by rank.
     """
     space = setting.space
     for known in sorted(regions, key=lambda one: one.rank):
@@ -55,21 +84,24 @@ def choices(setting: Setting, start: Start, regions: Sequence[Choice]) -> tuple[
     if start.kind is not StartKind.REGION or np.isinf(position):
         return ()
     radius = max(position, space.tolerance.length) + space.tolerance.length
-    left = sorted(
-        ((known, _blind(setting, start, known.region, radius)) for known in regions),
-        key=lambda one: one[1].measure,
-    )[:MOST]
     chosen: list[tuple[Choice, Area]] = []
     doubtful: Area | None = None
-    for known, blind in left:
-        rest = blind if doubtful is None else areas.intersection(doubtful, blind)
-        if doubtful is not None and rest.measure >= doubtful.measure:
+    for known in sorted(regions, key=lambda one: _left(setting, start, one.region))[:MOST]:
+        blind = _blind(setting, start, known.region, radius)
+        both = blind if doubtful is None else areas.intersection(doubtful, blind)
+        if doubtful is not None and both.measure >= doubtful.measure:
             continue
         chosen.append((known, blind))
-        doubtful = rest
+        doubtful = both
         if doubtful.is_empty:
             return _without_idle(chosen)
     return ()
+
+
+def _left(setting: Setting, start: Start, region: Region) -> float:
+    """How much of a start lies outside a region; its contact counts by the tolerance alone."""
+    rest = outside(setting.space, region, start.region)
+    return rest.area.measure + setting.space.tolerance.length * rest.contact.total_length
 
 
 def _blind(setting: Setting, start: Start, region: Region, radius: float) -> Area:

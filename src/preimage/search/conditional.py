@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from preimage.configuration.contact_set import ContactSet
+import numpy as np
+
+from preimage.configuration import contact_set
 from preimage.configuration.region import Region, is_subset
 from preimage.configuration.start import Start, distance_to
+from preimage.geometry.area import Floats
+from preimage.geometry.tolerance import Tolerance
 from preimage.preimages.methods import reach_any
-from preimage.preimages.preimage import Preimage, Target
-from preimage.preimages.setting import Command, Setting
-from preimage.preimages.shared import Shares, share_out, told_part
-from preimage.search.branching import choices
+from preimage.preimages.preimage import Preimage
+from preimage.preimages.setting import Setting
+from preimage.search.aims import Aim, Field
+from preimage.search.branching import Branching
 from preimage.search.limits import Limits, Progress
 from preimage.task.options import Method
+
+PROBES = 64
+"""Points in the box of a region, of which those inside are looked for in others."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,7 +34,6 @@ class Known:
     rank : the layer that it was made in: so many motions may remain.
     preimage : None for a goal.
     goals : what its motion aims at: regions of lower rank.
-    shares : what of them its motion is known to attain; None for a goal.
     """
 
     id: int
@@ -35,7 +41,6 @@ class Known:
     region: Region
     preimage: Preimage | None = None
     goals: tuple[Known, ...] = ()
-    shares: Shares | None = None
 
 
 @dataclass(slots=True, eq=False)
@@ -45,34 +50,18 @@ class Layers:
     Parameters
     ----------
     regions : all regions known, by id; ids grow with the rank.
+    aimed : what was aimed at.
     start : the regions that may be chosen at the start; empty if it is not covered.
     stopped : which limit came first; None if the start was covered or a layer added nothing.
     computed, pruned : how many preimages were computed, and how many of them said nothing new.
     """
 
     regions: list[Known]
+    aimed: Field
     start: tuple[Known, ...] = ()
     stopped: str | None = None
     computed: int = 0
     pruned: int = 0
-
-
-@dataclass(slots=True, eq=False)
-class _Aim:
-    """What one command is known to attain so far.
-
-    Parameters
-    ----------
-    goals, told : all regions that it may end in, and their kernels.
-    kept : what sticks for sure and has been allotted to them.
-    region : of the last preimage.
-    """
-
-    command: Command
-    goals: list[Known] = field(default_factory=list)
-    told: list[Region] = field(default_factory=list)
-    kept: tuple[ContactSet, ...] = ()
-    target: Target | None = None
 
 
 def layers(
@@ -90,9 +79,8 @@ def layers(
     In each layer every direction gets the preimage of all regions that are known by then: the
     preimage of a set of goals grows with the set. Knowing to be in it is all that is needed to
     command its direction, so one region a direction and layer suffices; but where parts that stick
-    for sure had to go, since they would be confused, each goal that lost one is also served first,
-    in a region of its own. So every linear strategy's regions lie in regions of the same rank, and
-    none is shorter.
+    for sure had to go, since they would be confused, each goal that lost one is aimed at alone too.
+    So every linear strategy's regions lie in regions of the same rank, and none is shorter.
 
     Parameters
     ----------
@@ -100,77 +88,110 @@ def layers(
     directions : radians.
     max_steps : the most layers.
     """
-    found = Layers([Known(number, 0, goal) for number, goal in enumerate(goals)])
-    found.start = choices(setting, start, found.regions)
+    aimed = Field(setting, method, directions)
+    found = Layers([Known(number, 0, goal) for number, goal in enumerate(goals)], aimed)
+    branching: Branching[Known] = Branching(setting, start)
+    found.start = branching.further(found.regions)
     if found.start:
         return found
-    aims = [_Aim(setting.command(direction)) for direction in directions]
+    aims = [Aim(setting.command(direction)) for direction in directions]
     fresh = list(found.regions)
-    nearest = min(distance_to(start, goal, setting.space) for goal in goals)
+    known = list(fresh)
+    nearest = math.inf
     for rank in range(1, max_steps + 1):
-        cores = _cores(setting, aims, fresh, method)
+        found.stopped = limits.exceeded(len(found.regions))
+        if found.stopped:
+            return found
+        aimed.add(one.region for one in fresh)
         added: list[Known] = []
-        for aim, told in zip(aims, cores, strict=True):
+        for aim in aims:
             found.stopped = limits.exceeded(len(found.regions))
             if found.stopped:
                 return found
-            aim.goals += fresh
-            aim.told += told
-            for known in _made(setting, aim, method, rank, found):
-                found.regions.append(known)
-                added.append(known)
-                nearest = min(nearest, distance_to(start, known.region, setting.space))
+            made = _made(aimed, aim, tuple(known), rank, found)
+            found.regions += made
+            added += made
             if progress is not None:
+                far = (distance_to(start, one.region, setting.space) for one in made)
+                nearest = min(nearest, *far, math.inf)
                 best = "" if math.isinf(nearest) else f"{nearest:.4g} from the start"
                 progress(Progress(len(found.regions), rank, best, limits.seconds))
         if not added:
             return found
-        found.start = choices(setting, start, found.regions)
+        found.start = branching.further(added)
         if found.start:
             return found
-        fresh = sorted(added, key=lambda known: -known.region.area.measure)
+        fresh = sorted(added, key=lambda one: -one.region.area.measure)
+        known += fresh
     found.stopped = f"the limit of {max_steps} motions came first"
     return found
 
 
-def _cores(
-    setting: Setting, aims: list[_Aim], fresh: list[Known], method: Method
-) -> list[list[Region]]:
-    """For each direction the kernels of new regions; what is around a region is looked at once."""
-    cores: list[list[Region]] = [[] for _ in aims]
-    for known in fresh:
-        for place, aim in enumerate(aims):
-            cores[place].append(told_part(setting, known.region, aim.command, method))
-    return cores
-
-
-def _made(setting: Setting, aim: _Aim, method: Method, rank: int, found: Layers) -> list[Known]:
+def _made(
+    aimed: Field, aim: Aim, goals: tuple[Known, ...], rank: int, found: Layers
+) -> list[Known]:
     """The new regions of one direction in one layer."""
-    regions = [known.region for known in aim.goals]
-    shares = share_out(setting, regions, aim.told, aim.command, method, aim.kept)
-    aim.kept = shares.held
+    setting, tolerance = aimed.setting, aimed.setting.space.tolerance
+    before = aim.target
+    aim.further(aimed)
+    targets = (
+        [] if _is_no_more(aim.target.region, before.region, tolerance) else [(aim.target, goals)]
+    )
+    targets += [(aim.alone(aimed, place), (goals[place],)) for place in aim.lost]
     made: list[Known] = []
-    every = [shares]
-    every += [
-        share_out(setting, regions, aim.told, aim.command, method, first=place)
-        for place in shares.dropped
-    ]
-    for one in every:
-        target, tolerance = one.target, setting.space.tolerance
-        if target.region.is_empty:
-            continue
-        if one is shares:
-            if aim.target is not None and is_subset(target.region, aim.target.region, tolerance):
-                found.pruned += 1
-                continue
-            aim.target = target
-        preimage = reach_any(setting, tuple(regions), aim.command.direction, method, target)
+    for target, ends in targets:
+        regions = tuple(goal.region for goal in ends)
+        direction = aim.command.direction
+        preimage = reach_any(setting, regions, direction, aimed.method, target)
         found.computed += 1
-        if preimage.region.is_empty or any(
-            is_subset(preimage.region, known.region, tolerance) for known in (*found.regions, *made)
+        if target is aim.target:
+            grown = not _is_no_more(preimage.region, aim.reached, tolerance)
+            aim.reached = preimage.region
+        else:
+            grown = True
+        probed = _Probed.of(preimage.region)
+        if not grown or any(
+            probed.lies_in(one.region, tolerance) for one in (*found.regions, *made)
         ):
             found.pruned += 1
             continue
         number = len(found.regions) + len(made)
-        made.append(Known(number, rank, preimage.region, preimage, tuple(aim.goals), one))
+        made.append(Known(number, rank, preimage.region, preimage, ends))
     return made
+
+
+def _is_no_more(region: Region, before: Region, tolerance: Tolerance) -> bool:
+    """Whether what can only have grown has not."""
+    slack = 2.0 * tolerance.length * region.area.perimeter
+    return region.area.measure <= before.area.measure + slack and contact_set.is_subset(
+        region.contact, before.contact, tolerance.length
+    )
+
+
+@dataclass(slots=True, eq=False)
+class _Probed:
+    """A region, with some points inside by which most others are told not to hold it."""
+
+    region: Region
+    points: Floats
+
+    @classmethod
+    def of(cls, region: Region, seed: int = 1) -> _Probed:
+        """Points all over the region's area."""
+        if region.area.is_empty:
+            return cls(region, np.empty((0, 2)))
+        xmin, ymin, xmax, ymax = region.area.bounds
+        some = np.random.default_rng(seed).uniform((xmin, ymin), (xmax, ymax), (PROBES, 2))
+        return cls(region, some[region.area.contains_all(some)])
+
+    def lies_in(self, other: Region, tolerance: Tolerance) -> bool:
+        """Whether the region lies in another one."""
+        own = self.region
+        slack = 2.0 * tolerance.length * own.area.perimeter
+        if own.area.measure > other.area.measure + slack:
+            return False
+        if own.contact.total_length > other.contact.total_length + slack + tolerance.length:
+            return False
+        if len(self.points) and not np.all(other.area.contains_all(self.points)):
+            return False
+        return is_subset(own, other, tolerance)

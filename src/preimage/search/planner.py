@@ -10,12 +10,13 @@ from preimage.configuration.region import Region
 from preimage.configuration.start import Start, start_region
 from preimage.errors import UnsupportedError
 from preimage.preimages.setting import Setting
+from preimage.search import led
 from preimage.search.conditional import Layers, layers
 from preimage.search.limits import Limits, Progress
 from preimage.search.linear import Node, Outcome, search
 from preimage.search.policy import policy
 from preimage.strategy.strategy import Motion, Statistics, Status, Strategy, StrategyRegion
-from preimage.task.options import Continuous, StrategyKind, Termination
+from preimage.task.options import Continuous, SearchOrder, StrategyKind, Termination
 from preimage.task.task import Task
 
 logger = logging.getLogger(__name__)
@@ -73,17 +74,13 @@ def _linear(
 ) -> Strategy:
     options = task.options
     assert not isinstance(options.directions, Continuous)
-    outcome = search(
-        setting,
-        goal,
-        start,
-        options.directions,
-        options.method,
-        options.search,
-        options.max_steps,
-        limits,
-        progress,
-    )
+    directions, method, most = options.directions, options.method, options.max_steps
+    if options.search is SearchOrder.LED:
+        outcome = led.search(setting, goal, start, directions, method, most, limits, progress)
+    else:
+        outcome = search(
+            setting, goal, start, directions, method, options.search, most, limits, progress
+        )
     return _strategy(task, setting, outcome, limits.seconds)
 
 
@@ -128,7 +125,7 @@ def _policy(task: Task, setting: Setting, found: Layers, seconds: float) -> Stra
         space=setting.space,
         status=status,
         kind=StrategyKind.CONDITIONAL,
-        regions=policy(setting, found.start or tuple(found.regions), goals),
+        regions=policy(found.aimed, found.start or found.regions, goals),
         start=tuple(known.id for known in found.start),
         steps=(),
         statistics=statistics,

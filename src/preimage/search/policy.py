@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +12,9 @@ from preimage.configuration import region as regions
 from preimage.configuration.region import Region
 from preimage.geometry import area as areas
 from preimage.geometry.area import Area
-from preimage.preimages.setting import Setting
+from preimage.preimages.shared import told_of
 from preimage.recognition.confusion import told_together
+from preimage.search.aims import Field
 from preimage.search.conditional import Known
 from preimage.strategy.strategy import Motion, StrategyRegion
 
@@ -30,7 +32,7 @@ class _Used:
 
 
 def policy(
-    setting: Setting, start: tuple[Known, ...], goals: tuple[Known, ...]
+    aimed: Field, start: Iterable[Known], goals: tuple[Known, ...]
 ) -> tuple[StrategyRegion, ...]:
     """The regions that may be come to from those at the start, and the goals; by id.
 
@@ -42,7 +44,7 @@ def policy(
 
     def use(known: Known) -> _Used:
         if known.id not in used:
-            needed = _needed(setting, known)
+            needed = _needed(aimed, known)
             most = max(use(goal).rank for goal in needed)
             used[known.id] = _Used(known, needed, most + 1)
         return used[known.id]
@@ -52,31 +54,35 @@ def policy(
     return tuple(_region(one) for _, one in sorted(used.items()))
 
 
-def _needed(setting: Setting, known: Known) -> tuple[Known, ...]:
+def _needed(aimed: Field, known: Known) -> tuple[Known, ...]:
     """The goals without which something of the target would not be told, by rank."""
-    assert known.shares is not None
     assert known.preimage is not None
-    space, shares = setting.space, known.shares
-    near = space.tolerance.length
-    slack = ROUNDING * space.tolerance.grid
+    setting, space = aimed.setting, aimed.setting.space
+    near, slack = space.tolerance.length, ROUNDING * space.tolerance.grid
+    command = setting.command(known.preimage.direction)
+    readings, pool = command.readings, known.preimage.target.sticking.contact
+    if len(known.goals) == 1:
+        return known.goals
     order = sorted(
         range(len(known.goals)),
-        key=lambda place: (known.goals[place].rank, -shares.told[place].area.measure),
+        key=lambda place: (known.goals[place].rank, -known.goals[place].region.area.measure),
     )
     sofar = Region.empty()
     kept: list[int] = []
     for place in order:
-        held = Region(Area.empty(), shares.held[place])
-        share = regions.union(shares.told[place], held, space.tolerance)
+        core = aimed.goals[place].core
+        share = core.kernel(readings) if core is not None else Region.empty()
+        if not pool.is_empty:
+            held = told_of(setting, known.goals[place].region, pool, command)
+            share = regions.union(share, Region(Area.empty(), held), space.tolerance)
         if contact_set.is_subset(share.contact, sofar.contact, near) and areas.is_subset(
             share.area, sofar.area, slack
         ):
             continue
         kept.append(place)
         sofar = regions.union(sofar, share, space.tolerance)
-    lone = np.setdiff1d(shares.target.region.contact.vertices, sofar.contact.vertices)
+    lone = np.setdiff1d(known.preimage.target.region.contact.vertices, sofar.contact.vertices)
     rest = [place for place in order if place not in kept]
-    readings = setting.command(known.preimage.direction).readings
     while len(lone):
         among = [known.goals[place].region for place in kept]
         told = told_together(space, readings, among, lone, setting.uncertainty)

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from benchmarks.backprojection import growth
+from benchmarks.directions import compasses
 from benchmarks.execution import motions
 from benchmarks.executor import executors
 from benchmarks.forward import forward_growth
@@ -16,6 +17,7 @@ BENCHMARKS = {
     "Growth of the sweep": growth,
     "Growth of the forward projection": forward_growth,
     "Small scenes": small_scenes,
+    "All directions": compasses,
     "Whole plans": whole_plans,
     "Processes": processes,
     "Motions": motions,

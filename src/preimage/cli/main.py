@@ -30,6 +30,7 @@ COMMANDS: dict[str, str] = {
     "backproject": "preimage.cli.stages",
     "kernel": "preimage.cli.stages",
     "preimage": "preimage.cli.stages",
+    "directions": "preimage.cli.directions",
     "examples": "preimage.cli.inspection",
     "schema": "preimage.cli.inspection",
     "completion": "preimage.cli.completion",

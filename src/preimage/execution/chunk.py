@@ -58,20 +58,28 @@ class Scene:
         marks : by region id, the borders at which its motion is looked at, if not its target's.
         """
         program = compiled(strategy)
-        space, task = strategy.space, strategy.task
         conditions = {}
         for number, made in program.motions.items():
             motion = made.region.motion
             assert motion is not None
             goals = [strategy.region(goal).region for goal in motion.goals]
-            conditions[number] = Conditions(
-                Simulator.of(space, task.friction, task.sliding, marks.get(number, motion.target)),
-                motion.direction,
-                task.uncertainty,
-                motion.target,
-                np.concatenate([outline(space.contact, goal) for goal in goals]),
-            )
+            mark = marks.get(number, motion.target)
+            conditions[number] = _conditions(strategy, motion.direction, motion.target, mark, goals)
         return cls(strategy, program, conditions)
+
+
+def _conditions(
+    strategy: Strategy, direction: float, target: Region, mark: Region, goals: list[Region]
+) -> Conditions:
+    """What nature knows of a motion; its way is looked at at the borders of `mark`."""
+    space, task = strategy.space, strategy.task
+    return Conditions(
+        Simulator.of(space, task.friction, task.sliding, mark),
+        direction,
+        task.uncertainty,
+        target,
+        np.concatenate([outline(space.contact, goal) for goal in goals]),
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -119,7 +127,7 @@ class Chunk:
             outcome,
             *self.pair,
             number=self.first + place,
-            words="" if outcome is Outcome.SUCCESS else outcome.value,
+            words="" if outcome.as_planned else outcome.value,
         )
 
 
@@ -134,8 +142,8 @@ def carry_out_plan(
     """Carry a plan out from many starts at once, until every run has ended (theory 8).
 
     Motions are carried out by falling rank, each for all robots that wait for it. A run ends where
-    the goal is recognised, or where nothing more can come of it; what it came to is judged by
-    where the robot truly is.
+    the goal or failure is recognised, or where nothing more can come of it; what it came to is
+    judged by where the robot truly is.
 
     Parameters
     ----------
@@ -148,9 +156,7 @@ def carry_out_plan(
     now = starts.part(np.ones(count, dtype=np.bool_))
     total, went = np.zeros(count), np.zeros(count)
     motions = np.zeros(count, dtype=np.int32)
-    lost = Outcome.ENDLESS  # who cannot tell which motion to begin with
-    outcomes = np.where(region < 0, OUTCOMES.index(lost), OUTCOMES.index(Outcome.SUCCESS))
-    outcomes = outcomes.astype(np.int8)
+    outcomes = _begun(strategy, starts, region)
     stages = []
     for number in sorted(scene.conditions, key=lambda n: (-strategy.region(n).rank, n)):
         who = np.flatnonzero(region == number)
@@ -177,13 +183,31 @@ def carry_out_plan(
 def _first(scene: Scene, starts: Robots, lots: Floats, sensing: Sensing, rng: Generator) -> Ints:
     """(k,) the region that each robot begins with, by one look at its position; -1 if none."""
     choices = scene.program.beginning.choices
-    motion = next((scene.conditions[c.goal] for c in choices if c.goal in scene.conditions), None)
-    if motion is None:  # the start lies in the goal
-        return np.zeros(len(starts), dtype=np.int32)
+    if len(choices) == 1 and choices[0].goal not in scene.conditions:
+        return np.full(len(starts), choices[0].goal, dtype=np.int32)
+    known = [scene.conditions[c.goal] for c in choices if c.goal in scene.conditions]
+    motion = next(iter((*known, *scene.conditions.values())), None)
+    if motion is None:
+        goal = scene.strategy.region(0).region
+        motion = _conditions(scene.strategy, 0.0, goal, goal, [goal])
     nothing = np.zeros(len(starts))
     now = Situation(motion, starts, nothing, lots, nothing.astype(np.int32), rng)
     positions, _ = read(sensing, now, nothing)
     return recognised(choices, positions, np.full(len(starts), np.nan))
+
+
+def _begun(strategy: Strategy, starts: Robots, region: Ints) -> NDArray[np.int8]:
+    """(k,) what came of choosing the first region: a success as well if the run goes on."""
+    # who cannot tell which motion to begin with stays where it is
+    cases = [(region < 0, Outcome.ENDLESS)]
+    slack = SLACK * strategy.space.tolerance.length
+    for end in strategy.failures:
+        there = is_in(strategy.space, end.region, starts, slack)
+        cases += [
+            ((region == end.id) & there, Outcome.FAILED),
+            ((region == end.id) & ~there, Outcome.WRONG),
+        ]
+    return _selected(cases)
 
 
 def _judged(strategy: Strategy, made: MotionRun) -> NDArray[np.int8]:
@@ -200,7 +224,13 @@ def _judged(strategy: Strategy, made: MotionRun) -> NDArray[np.int8]:
         ((made.goal < 0) & at_goal, Outcome.UNKNOWN),
         (made.goal < 0, Outcome.ENDLESS),
         (~truly, Outcome.WRONG),
+        (np.isin(made.goal, [end.id for end in strategy.failures]), Outcome.FAILED),
     ]
+    return _selected(cases)
+
+
+def _selected(cases: list[tuple[Bools, Outcome]]) -> NDArray[np.int8]:
+    """(k,) the first outcome whose case it is; else a success."""
     return np.select(
         [case for case, _ in cases],
         [np.int8(OUTCOMES.index(outcome)) for _, outcome in cases],

@@ -24,10 +24,14 @@ def describe_report(report: Report) -> str:
     ]
     done = report.outcomes.get(Outcome.SUCCESS, 0)
     lines.append(f"succeeded    {done:,} ({_share(done, report.runs)})")
+    known = report.outcomes.get(Outcome.FAILED, 0)
+    if known or report.strategy.failures:
+        share = _share(known, report.runs)
+        lines.append(f"out of reach {known:,} ({share}): {Outcome.FAILED.value}")
     lines += [
         f"failed       {many:,} ({_share(many, report.runs)}): {outcome.value}"
         for outcome, many in report.outcomes.items()
-        if outcome is not Outcome.SUCCESS
+        if not outcome.as_planned
     ]
     lines += _totals(report)
     failing = [tally for tally in report.tallies if tally.failures]

@@ -17,6 +17,7 @@ class Doing(Enum):
 
     MOVING = "moving"
     DONE = "in the goal"
+    FAILED = "known to have failed"
     BROKEN = "the readings contradict the model"
 
 
@@ -27,7 +28,8 @@ class Answer:
     Parameters
     ----------
     command : the direction to command, radians; None: stop.
-    region : id of the region whose motion it is; 0 in the goal, -1 before there is any.
+    region : id of the region whose motion it is; 0 in the goal, that of the region of failure if
+        the goal is known to be out of reach, -1 before there is any.
     broken : what the readings contradict, if they do.
     words : the same in words, for people.
     """
@@ -63,8 +65,9 @@ class Executor:
     """Carries a solved plan out: reading by reading it says what to command, and when to stop.
 
     It ends in the goal and knows it, or says which assumption of the model a reading contradicts,
-    and stops; after that every call has the same answer. A stream from a world as the task
-    describes it, read often enough, is never found broken.
+    and stops; after that every call has the same answer. A plan with regions of failure may also
+    end in one of them, and knows that too. A stream from a world as the task describes it, read
+    often enough, is never found broken.
 
     The conditions of a plan are looked at continuously; this one looks when a reading comes. A
     motion that is ended by its sticking condition loses nothing but time. One that is ended by a
@@ -93,7 +96,7 @@ class Executor:
     __slots__ = (
         "_answer",
         "_began",
-        "_done",
+        "_ends",
         "_far",
         "_first",
         "_fresh",
@@ -125,7 +128,13 @@ class Executor:
             )
             for number, motion in self._program.motions.items()
         }
-        self._done = Answer(Doing.DONE, None, 0, None, "in the goal")
+        self._ends = {
+            region.id: Answer(Doing.FAILED, None, region.id, None, "known to have failed")
+            if region.failure
+            else Answer(Doing.DONE, None, region.id, None, "in the goal")
+            for region in strategy.regions
+            if region.motion is None
+        }
         self._answer: Answer | None = None
         self._motion: CompiledMotion | None = None
         self._history = History()
@@ -272,8 +281,8 @@ class Executor:
         self._last = (time, x, y)
         self._motion = self._program.motions.get(region)
         if self._motion is None:
-            self._answer = self._done
-            return self._done
+            self._answer = self._ends[region]
+            return self._answer
         if self._motion.sticking is not None:
             self._history.begin(self._motion.sticking.period)
             self._history.add(time, x, y)

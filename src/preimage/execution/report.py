@@ -30,8 +30,8 @@ class Tally:
 
     @property
     def failures(self) -> int:
-        """How many runs did not succeed."""
-        return self.runs - self.outcomes.get(Outcome.SUCCESS, 0)
+        """How many runs did not end as planned: in the goal, or in known failure."""
+        return sum(many for outcome, many in self.outcomes.items() if not outcome.as_planned)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,8 +41,8 @@ class Report(Shown):
     Parameters
     ----------
     tallies : one for each pair of adversaries.
-    failure : the first run that failed, whole.
-    slowest : of the runs that succeeded, the one that took longest.
+    failure : the first run that did not end as planned, whole.
+    slowest : of the runs that ended as planned, the one that took longest.
     samples : some runs of each pair, for pictures.
     """
 
@@ -60,7 +60,7 @@ class Report(Shown):
 
     @property
     def failures(self) -> int:
-        """How many did not succeed."""
+        """How many did not end as planned: in the goal, or in known failure."""
         return sum(tally.failures for tally in self.tallies)
 
     @property

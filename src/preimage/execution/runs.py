@@ -22,7 +22,7 @@ from preimage.execution.control import CONTROLS, Control
 from preimage.execution.report import Report, Tally
 from preimage.execution.sensing import SENSINGS, Sensing
 from preimage.execution.starts import of_start
-from preimage.execution.trace import Outcome, Trace
+from preimage.execution.trace import Trace
 from preimage.strategy.strategy import Strategy
 
 CHUNK = 2_000
@@ -221,7 +221,8 @@ def _pair(
         distance=(float(distances.mean()), float(distances.max())),
         motions=(float(motions.mean()), int(motions.max())),
     )
-    won = outcomes == OUTCOMES.index(Outcome.SUCCESS)
+    planned = [code for code, outcome in enumerate(OUTCOMES) if outcome.as_planned]
+    won = np.isin(outcomes, planned)
     kept = list(range(min(SAMPLES, options.runs)))
     kept += np.flatnonzero(~won)[:1].tolist()
     kept += [int(np.argmax(np.where(won, times, -1.0)))]
@@ -247,8 +248,8 @@ def _chunk(
 def _report(strategy: Strategy, found: list[tuple[Tally, list[Trace]]], seconds: float) -> Report:
     """What all pairs came to."""
     traces = [replace(trace, strategy=strategy) for _, kept in found for trace in kept]
-    failed = [trace for trace in traces if trace.outcome is not Outcome.SUCCESS]
-    done = [trace for trace in traces if trace.outcome is Outcome.SUCCESS]
+    failed = [trace for trace in traces if not trace.outcome.as_planned]
+    done = [trace for trace in traces if trace.outcome.as_planned]
     return Report(
         strategy=strategy,
         tallies=tuple(tally for tally, _ in found),

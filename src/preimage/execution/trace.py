@@ -14,11 +14,17 @@ class Outcome(Enum):
     """How a run ended."""
 
     SUCCESS = "in the goal, and known to be"
+    FAILED = "failed, and known to have"
     WRONG = "stopped outside the goal"
     ESCAPED = "left through an open side"
     ENDLESS = "never stopped, outside the goal"
     UNKNOWN = "in the goal, without knowing it"
     BROKEN = "the readings contradicted the model"
+
+    @property
+    def as_planned(self) -> bool:
+        """Whether the plan kept its promise: it ended in the goal, or knows that it has failed."""
+        return self in (Outcome.SUCCESS, Outcome.FAILED)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

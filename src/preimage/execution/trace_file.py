@@ -8,7 +8,7 @@ from typing import Any
 
 from preimage.execution.describe import feature_words
 from preimage.execution.report import Report
-from preimage.execution.trace import Leg, Outcome, Trace
+from preimage.execution.trace import Leg, Trace
 from preimage.task.degrees import to_degrees
 
 Data = dict[str, Any]
@@ -56,7 +56,7 @@ def trace_to_dict(trace: Trace) -> Data:
         "outcome": trace.outcome.name.lower(),
         "motions": [_leg(leg, edges) for leg in trace.legs],
     }
-    if trace.outcome is not Outcome.SUCCESS:
+    if not trace.outcome.as_planned:
         found["words"] = trace.words
     return found
 

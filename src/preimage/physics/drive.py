@@ -191,6 +191,8 @@ def _outcome(doing: Doing, near: bool, escaped: bool) -> Outcome:
         return Outcome.ESCAPED
     if doing is Doing.DONE:
         return Outcome.SUCCESS if near else Outcome.WRONG
+    if doing is Doing.FAILED:
+        return Outcome.WRONG if near else Outcome.FAILED
     if doing is Doing.BROKEN:
         return Outcome.BROKEN
     return Outcome.UNKNOWN if near else Outcome.ENDLESS

@@ -149,10 +149,27 @@ def forward_project(
     >>> round(found.region.area.measure, 9)
     6.0
     """
+    code = passages(space.contact, direction, control, friction, space.tolerance)
+    return flood(space, start, direction, control, code, stop)
+
+
+def flood(
+    space: ConfigurationSpace,
+    start: Region,
+    direction: float,
+    control: float,
+    code: Codes,
+    stop: Region | None = None,
+) -> ForwardProjection:
+    """The forward projection of motions whose passage at each edge is given.
+
+    Parameters
+    ----------
+    code : (n,) bits of `Passage`, by edge.
+    """
     stop = Region.empty() if stop is None else stop
     if start.is_empty:
         return _nowhere(space, start, stop, direction)
-    code = passages(space.contact, direction, control, friction, space.tolerance)
     least = space.tolerance.angle
     spread = min(max(control, least), QUARTER - TURN - least)
     # where a border crosses contact space by more than rounding, what is well inside does not

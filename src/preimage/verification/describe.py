@@ -52,7 +52,11 @@ def _headline(verification: Verification) -> str:
     match verification.verdict:
         case Verdict.PROVEN if verification.motions:
             motions = count(len(verification.motions), "motion")
-            return f"proven in {motions}: whatever happens, it ends in the goal and knows it"
+            if verification.strategy.failures:
+                known = "it ends in the goal, or where that is out of reach, and knows which"
+            else:
+                known = "it ends in the goal and knows it"
+            return f"proven in {motions}: whatever happens, {known}"
         case Verdict.PROVEN:
             return "proven: the start lies in the goal"
         case Verdict.REFUTED:

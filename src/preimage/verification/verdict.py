@@ -32,6 +32,7 @@ class Fault(Enum):
     ELAPSED = "may still move when the time is up"
     THIN = "begins in a region too thin to be looked at"
     GOAL = "the plan's goal is not the task's"
+    REACH = "the goal is given up where it may be reached"
     START = "the start is not covered"
     GRAPH = "the regions do not lead to the goal"
     STATUS = "the plan is not solved"

@@ -23,6 +23,7 @@ from preimage.recognition.termination import StickingCondition
 from preimage.strategy.strategy import Status, Strategy, StrategyRegion
 from preimage.verification.faults import faults
 from preimage.verification.margins import margin_within, of_start
+from preimage.verification.out_of_reach import out_of_reach
 from preimage.verification.proof import MARGIN, Case, case_of, least_progress
 from preimage.verification.recognised import blurred
 from preimage.verification.reference import reference_backprojection
@@ -53,8 +54,8 @@ def verify(
     """Check a plan, whoever made it, with reachability and reading sets of its own.
 
     Each motion that the plan may come to is proven, by a forward projection from its region, or a
-    counter-example is given (see `preimage.verification.proof`). The start must be covered, and the
-    plan's goal be the task's.
+    counter-example is given (see `preimage.verification.proof`). The start must be covered, the
+    plan's goal be the task's, and out of reach where it is given up.
 
     Parameters
     ----------
@@ -73,7 +74,7 @@ def verify(
     findings = _graph(strategy)
     if any(one.fault is Fault.GRAPH for one in findings):
         return Verification(strategy, tuple(findings), (), None, time.monotonic() - began)
-    findings += [*_goal(strategy), *_start(strategy)]
+    findings += [*_goal(strategy), *_start(strategy), *out_of_reach(strategy)]
     used = _used(strategy)
     motions: list[MotionVerdict] = []
     cases: dict[int, Case] = {}

@@ -80,7 +80,7 @@ def test_conditional_strategies_show_their_regions_by_rank() -> None:
     made = figure(policy)
     assert panels(made) == ["region-3", "region-2", "region-1"]
     assert "Region 3, rank 3" in words(made)
-    assert "solved with 3 regions to choose from" in words(made)
+    assert "solved in 3 motions at most, with 3 regions" in words(made)
 
 
 def test_long_strategies_are_cut() -> None:
@@ -97,4 +97,4 @@ def test_motions_may_aim_at_several_regions() -> None:
     regions = (*policy.regions[:-1], replace(last, motion=motion))
     made = figure(replace(policy, regions=regions))
     assert {f"subgoal-{number}" for number in range(1, 6)} <= set(artists(made, "region-6"))
-    assert "in 6 regions" in words(made)
+    assert "in one of 6 regions" in words(made)

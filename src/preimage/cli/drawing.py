@@ -18,23 +18,28 @@ from preimage.cli.output import STANDARD, about, check_outputs, picture, say
     examples=[
         "preimage draw task.yaml -o scene.svg",
         "preimage draw plan.json -o plan.pdf",
+        "preimage draw plan.json -o graph.svg --as graph",
         "preimage draw --example peg-in-hole -o scene.png --edge-numbers",
     ],
 )
 @task_argument
 @click.option("-o", "--output", metavar="FILE", required=True, help="A picture: .svg, .png, .pdf.")
+@click.option(
+    "--as", "kind", type=click.Choice(["graph", "panels"]), default="panels",
+    help="A plan as a panel for each motion, or as a graph.", show_default=True,
+)  # fmt: skip
 @click.option("--columns", type=int, metavar="N", help="Panels beside each other.")
 @click.option("--edge-numbers", is_flag=True, help="Number the contact edges.")
 @click.option("--friction-cones", is_flag=True, help="Draw friction cones.")
 def draw_command(
-    path: str | None, example: str | None, output: str, **options: int | bool | None
+    path: str | None, example: str | None, output: str, kind: str, **options: int | bool | None
 ) -> int:
-    """Draw TASK, or a plan: a panel for each motion.
+    """Draw TASK, or a plan: a panel for each motion, or a graph of its regions.
 
     The file is a task or, as written by `preimage plan -o`, a plan.
     """
     check_outputs([path], figure=output)
-    picture(_subject(path, example), output, **options)
+    picture(_subject(path, example), output, graph=kind == "graph", **options)
     say(f"written: {output}")
     return 0
 

@@ -95,7 +95,8 @@ def run_command(
     The first run that fails is kept whole, printed and drawn; if none does, the picture shows some
     of each pair of adversaries, and the film the run that took longest.
 
-    Exit status: 0 all runs succeeded, 1 some failed or were not made, 2 bad input.
+    Exit status: 0 all runs succeeded, or ended knowing that they failed where the plan says so; 1
+    some failed or were not made; 2 bad input.
     """
     tell = note if output == STANDARD else say
     with ProgressLine() as line:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from preimage.errors import InputError, UnsupportedError, shown
 from preimage.execution.report import Report
-from preimage.execution.trace import Outcome, Trace
+from preimage.execution.trace import Trace
 from preimage.rendering.film import FilmOptions, Frame, frames_of
 from preimage.rendering.page import page
 from preimage.rendering.picture import settings
@@ -201,7 +201,7 @@ class _Moving:
             edgecolor=ORANGE, lw=0.9, linestyle=(0.0, (1.0, 1.6)), zorder=8.4,
         )  # fmt: skip
         self.push = Polygon(np.zeros((3, 2)), facecolor=VERMILLION, lw=0.0, zorder=8.8)
-        failed = trace.outcome is not Outcome.SUCCESS
+        failed = not trace.outcome.as_planned
         self.words = Text(
             0.99, 0.015, "", transform=self.axes.transAxes, ha="right", va="bottom", fontsize=9.5,
             color=VERMILLION if failed else INK, zorder=10.0,

@@ -48,13 +48,24 @@ WORDS: dict[Layer, str] = {
     Layer.STICKING: "target that sticks",
     Layer.RAY: "bounding ray",
     Layer.RUN: "way of a run",
+    Layer.GIVEN_UP: "run that gives up",
     Layer.FAILURE: "run that failed",
     Layer.BEGIN: "where it begins",
     Layer.END: "where it is ended",
     Layer.MEASURED: "position as measured",
     Layer.FORCE: "force as measured",
+    Layer.REASON: "what stands in the way",
+    Layer.SOLVES: "directions that solve",
+    Layer.UNPROVEN: "directions not proven",
 }
 """The keys of layers, in their order."""
+
+WAYS: dict[Layer, tuple[str, float]] = {
+    Layer.RUN: (BLUE, 1.0),
+    Layer.GIVEN_UP: (ORANGE, 1.0),
+    Layer.FAILURE: (VERMILLION, 2.2),
+}
+"""The colors of the ways of runs, and how wide the keys are."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -164,6 +175,10 @@ class Glyph(HandlerBase):
 
 def _glyph(layer: Layer, angle: float, box: tuple[float, float, float, float]) -> list[Artist]:
     x, y, wide, high = box
+    if layer in (Layer.SOLVES, Layer.UNPROVEN):
+        color, hatch = (BLUE, None) if layer is Layer.SOLVES else (ORANGE, "xxxx")
+        fill = to_rgba(color, 0.45)
+        return [Rectangle((x, y), wide, high, facecolor=fill, edgecolor=color, lw=0.5, hatch=hatch)]
     if layer in (Layer.C_OBSTACLE, Layer.OBSTACLE, Layer.WALL, Layer.ROBOT):
         face, hatch, line = {
             Layer.C_OBSTACLE: (C_OBSTACLE_GREY, None, 0.0),
@@ -183,8 +198,8 @@ def _glyph(layer: Layer, angle: float, box: tuple[float, float, float, float]) -
     if layer is Layer.FORCE:
         tail, tip = np.array((x, middle)), np.array((x + wide, middle))
         return [Polygon(arrow(tail, tip, (5.0, 1.9), 1.0), facecolor=VERMILLION, linewidth=0.0)]
-    if layer in (Layer.RUN, Layer.FAILURE):
-        color, width = (BLUE, 1.0) if layer is Layer.RUN else (VERMILLION, 2.2)
+    if layer in WAYS:
+        color, width = WAYS[layer]
         return [Line2D([x, x + wide], [middle] * 2, color=color, linewidth=width)]
     if layer in (Layer.OPEN_SIDE, Layer.RAY):
         color, width, dashes = {

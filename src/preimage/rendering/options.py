@@ -50,6 +50,10 @@ class PictureOptions:
         default=False,
         metadata={"unit": "", "reason": "they crowd small pictures"},
     )
+    graph: bool = field(
+        default=False,
+        metadata={"unit": "", "reason": "of use for conditional strategies only"},
+    )
     max_panels: int = field(
         default=24,
         metadata={"unit": "panels", "reason": "four pages of six"},
@@ -61,7 +65,8 @@ class PictureOptions:
 
     def __post_init__(self) -> None:
         """Refuse options that are out of range."""
-        for name in ("legend", "titles", "ticks", "names", "edge_numbers", "friction_cones"):
+        flags = ("legend", "titles", "ticks", "names", "edge_numbers", "friction_cones", "graph")
+        for name in flags:
             value = getattr(self, name)
             if not isinstance(value, bool):
                 raise InputError(f"picture.{name}", f"must be true or false, not {shown(value)}")

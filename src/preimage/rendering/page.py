@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any
 
 from preimage.configuration.region import Region
-from preimage.execution.trace import Outcome, Trace
+from preimage.execution.trace import Trace
 from preimage.geometry.area import Area
 from preimage.rendering.film import FilmOptions, Frame
 from preimage.rendering.style import (
@@ -42,7 +42,7 @@ def page(trace: Trace, frames: list[Frame], options: FilmOptions) -> str:
         "control": task.uncertainty.control,
         "rate": options.rate,
         "rest": options.rest,
-        "failed": trace.outcome is not Outcome.SUCCESS,
+        "failed": not trace.outcome.as_planned,
         "motions": [
             {
                 "title": f"motion {place + 1} of {len(trace.legs)}:"

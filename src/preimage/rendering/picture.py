@@ -6,7 +6,7 @@ import io
 import os
 import threading
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import Enum
 from pathlib import Path
@@ -24,11 +24,14 @@ if TYPE_CHECKING:
     from preimage.execution.trace import Trace
     from preimage.preimages.preimage import Preimage
     from preimage.reachability.backprojection import Backprojection
+    from preimage.rendering.options import PictureOptions
+    from preimage.rendering.scene import Scene
+    from preimage.search.compass import Compass
     from preimage.strategy.strategy import Strategy
     from preimage.task.task import Task
 
     Stage = Preimage | Backprojection | Region
-    Subject = Task | ConfigurationSpace | Strategy | Stage | Trace | Report
+    Subject = Task | ConfigurationSpace | Strategy | Stage | Trace | Report | Compass
 
 
 class Format(Enum):
@@ -158,10 +161,13 @@ def _figure(
     from preimage.preimages.preimage import Preimage
     from preimage.reachability.backprojection import Backprojection
     from preimage.rendering import stages
+    from preimage.rendering.compass import compass_figure
+    from preimage.rendering.graph import graph_figure
     from preimage.rendering.options import PictureOptions
     from preimage.rendering.scene import Scene
     from preimage.rendering.strategy import strategy_figure
     from preimage.rendering.trace import report_figure, trace_figure
+    from preimage.search.compass import Compass
     from preimage.strategy.strategy import Strategy
     from preimage.task.task import Task
 
@@ -177,21 +183,36 @@ def _figure(
 
     match subject:
         case Strategy():
-            return strategy_figure(subject, chosen)
+            return (graph_figure if chosen.graph else strategy_figure)(subject, chosen)
         case Trace():
             return trace_figure(subject, chosen)
         case Report():
             return report_figure(subject, chosen)
+        case Compass():
+            return compass_figure(subject, chosen)
         case Task():
             return stages.task_figure(subject, space, chosen)
         case ConfigurationSpace():
             return stages.space_figure(scene(subject), chosen)
-        case Preimage():
-            return stages.preimage_figure(subject, scene(subject.backprojection.space), chosen)
-        case Backprojection():
-            return stages.backprojection_figure(subject, scene(subject.space), chosen)
-        case Region():
-            return stages.region_figure(subject, scene(None), direction, chosen)
+        case Preimage() | Backprojection() | Region():
+            return _stage(subject, scene, direction, chosen)
+
+
+def _stage(
+    subject: Stage,
+    scene: Callable[[ConfigurationSpace | None], Scene],
+    direction: float | None,
+    chosen: PictureOptions,
+) -> Figure:
+    from preimage.preimages.preimage import Preimage
+    from preimage.reachability.backprojection import Backprojection
+    from preimage.rendering import stages
+
+    if isinstance(subject, Preimage):
+        return stages.preimage_figure(subject, scene(subject.backprojection.space), chosen)
+    if isinstance(subject, Backprojection):
+        return stages.backprojection_figure(subject, scene(subject.space), chosen)
+    return stages.region_figure(subject, scene(None), direction, chosen)
 
 
 def _rendered(made: Figure, kind: Format, dpi: int | None) -> bytes:

@@ -16,6 +16,7 @@ from preimage.rendering.layers import draw_region
 from preimage.rendering.names import draw_edge_numbers, draw_name, draw_start_name
 from preimage.rendering.options import PictureOptions
 from preimage.rendering.panel import Panel
+from preimage.rendering.reasons import draw_reasons, reason_words
 from preimage.rendering.scene import Scene, draw_scene
 from preimage.rendering.sheet import Plate, compose
 from preimage.rendering.style import Layer
@@ -59,13 +60,14 @@ def in_order(strategy: Strategy) -> list[StrategyRegion]:
 
 def title(strategy: Strategy, options: PictureOptions) -> str:
     """One line on the whole strategy."""
-    count = len(strategy.regions) - 1
+    count = sum(region.motion is not None for region in strategy.regions)
     name = strategy.task.name.replace("$", r"\$")
     if strategy.status is Status.SOLVED:
         number = len(strategy.steps) or count
         words = "already there" if not number else f"solved in {_count(number, 'motion')}"
         if not strategy.steps and number:
-            words = f"solved with {_count(number, 'region')} to choose from"
+            most = max((strategy.region(start).rank for start in strategy.start), default=0)
+            words = f"solved in {_count(most, 'motion')} at most, with {_count(number, 'region')}"
         if number > options.max_panels:
             words += f", {options.max_panels} of them shown"
         return f"{name}: {words}"
@@ -124,7 +126,7 @@ def detail(motion: Motion, goal: str) -> str:
 
 def _names(strategy: Strategy, motions: list[StrategyRegion]) -> dict[int, str]:
     """The letters of regions: numbered by motion, or by their ids where there is a choice."""
-    names = {0: GOAL}
+    names = {0: GOAL} | {one.id: rf"$\mathcal{{F}}_{{{one.id}}}$" for one in strategy.failures}
     for place, region in enumerate(motions):
         number = place + 1 if strategy.steps else region.id
         names[region.id] = rf"$\mathcal{{P}}_{{{number}}}$"
@@ -145,7 +147,7 @@ def _motion_plate(
     goals = [strategy.region(number) for number in motion.goals]
     goal = " or ".join(names.get(number, GOAL) for number in motion.goals[:4])
     if len(motion.goals) > 4:
-        goal = f"{len(motion.goals)} regions"
+        goal = f"one of {len(motion.goals)} regions"
     heading = f"Motion {place + 1} of {len(motions)}: {degrees(motion.direction)}"
     if not strategy.steps:
         heading = f"Region {region.id}, rank {region.rank}: {degrees(motion.direction)}"
@@ -211,6 +213,7 @@ def _found_plate(strategy: Strategy, scene: Scene, options: PictureOptions) -> P
         words += " or fewer" if longest > 1 else ""
         words = words if found else "no motion is known to reach the goal"
         words += f"; the {MOST_FOUND} largest are shown" if len(found) > MOST_FOUND else ""
+        words += f". {reason_words(strategy)}" if strategy.why else ""
 
     def paint(panel: Panel) -> None:
         draw_scene(panel, scene)
@@ -222,6 +225,7 @@ def _found_plate(strategy: Strategy, scene: Scene, options: PictureOptions) -> P
             draw_edge_numbers(panel)
         if options.names:
             draw_scene_names(panel, scene)
+        draw_reasons(panel, strategy.why)
 
     return Plate("found", heading, words, paint)
 

@@ -71,11 +71,16 @@ class Layer(Enum):
     FRICTION_CONE = "friction-cone"
     FORCE_CONE = "force-cone"
     RUN = "run"
+    GIVEN_UP = "given-up"
     FAILURE = "failure"
     BEGIN = "begin"
     END = "end"
     MEASURED = "measured"
     FORCE = "force"
+    REASON = "reason"
+    ROSE = "rose"
+    SOLVES = "solves"
+    UNPROVEN = "unproven"
     NAME = "name"
     EDGE_NUMBER = "edge-number"
 
@@ -147,8 +152,9 @@ MARKS: dict[Layer, tuple[str, str]] = {
     Layer.BEGIN: ("o", BLACK),
     Layer.END: ("s", GREEN),
     Layer.MEASURED: ("+", ORANGE),
+    Layer.REASON: ("X", VERMILLION),
 }
-"""Instants of a run: a marker, and its colour."""
+"""Instants of a run, and places of note: a marker, and its colour."""
 
 LEAST_SIZE = 7.0
 """Points: whatever is smaller on paper gets a ring around it."""

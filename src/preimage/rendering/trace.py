@@ -60,11 +60,11 @@ def trace_figure(trace: Trace, options: PictureOptions) -> Figure:
 def report_figure(report: Report, options: PictureOptions) -> Figure:
     """The figure of many runs: some of each pair of adversaries, and the first that failed."""
     name = report.strategy.task.name.replace("$", r"\$")
-    runs = [trace for trace in report.samples if trace.outcome is Outcome.SUCCESS]
+    runs = [trace for trace in report.samples if trace.outcome.as_planned]
     runs = runs[:: max(1, -(-len(runs) // MOST_RUNS))]
     shown = [*runs, *([report.failure] if report.failure else [])]
     words = (
-        f"all {report.runs:,} runs succeeded"
+        _as_planned(report)
         if not report.failures
         else (f"{report.failures:,} of {report.runs:,} runs failed")
     )
@@ -72,6 +72,14 @@ def report_figure(report: Report, options: PictureOptions) -> Figure:
     if len(shown) < report.runs:
         title += f"; {len(shown)} of them shown"
     return _figure(report, shown, title, options)
+
+
+def _as_planned(report: Report) -> str:
+    """How many runs ended in the goal, if none broke the plan's promise."""
+    known = report.outcomes.get(Outcome.FAILED, 0)
+    if not known:
+        return f"all {report.runs:,} runs succeeded"
+    return f"{known:,} of {report.runs:,} runs know that they have failed, the others succeeded"
 
 
 def _figure(
@@ -146,12 +154,18 @@ def draw_legs(panel: Panel, legs: Sequence[tuple[Trace, Leg]], errors: Uncertain
     ----------
     errors : bounds on them; of few runs the readings at the end of the motion are drawn too.
     """
-    good = [leg for trace, leg in legs if trace.outcome is Outcome.SUCCESS]
-    bad = [(trace, leg) for trace, leg in legs if trace.outcome is not Outcome.SUCCESS]
+    good = [leg for trace, leg in legs if trace.outcome.as_planned]
+    bad = [(trace, leg) for trace, leg in legs if not trace.outcome.as_planned]
     if good:
         opacity = max(0.12, min(0.9, 8.0 / len(good)))
         width = 1.4 if len(good) <= FEW_RUNS else 0.7
-        _draw_ways(panel, Layer.RUN, good, BLUE, width, opacity, 7.0)
+        for layer, outcome, color in (
+            (Layer.RUN, Outcome.SUCCESS, BLUE),
+            (Layer.GIVEN_UP, Outcome.FAILED, ORANGE),
+        ):
+            ways = [leg for trace, leg in legs if trace.outcome is outcome]
+            if ways:
+                _draw_ways(panel, layer, ways, color, width, opacity, 7.0)
         _draw_marks(panel, Layer.BEGIN, [leg.places[0] for leg in good], len(good))
         _draw_marks(panel, Layer.END, [leg.places[-1] for leg in good], len(good))
     if bad:

@@ -10,16 +10,18 @@ import numpy as np
 
 from preimage.configuration import contact_set
 from preimage.configuration.region import Region, is_subset
-from preimage.configuration.start import Start, distance_to
+from preimage.configuration.start import Start, covered, distance_to
 from preimage.geometry.area import Floats
 from preimage.geometry.tolerance import Tolerance
 from preimage.preimages.methods import reach_any
 from preimage.preimages.preimage import Preimage
 from preimage.preimages.setting import Setting
+from preimage.preimages.start_search import stateful_preimage
+from preimage.preimages.starts import start_as_region
 from preimage.search.aims import Aim, Field
 from preimage.search.branching import Branching
 from preimage.search.limits import Limits, Progress
-from preimage.task.options import Method
+from preimage.task.options import Method, Termination
 
 PROBES = 64
 """Points in the box of a region, of which those inside are looked for in others."""
@@ -73,6 +75,7 @@ def layers(
     max_steps: int,
     limits: Limits,
     progress: Callable[[Progress], None] | None = None,
+    termination: Termination = Termination.INSTANTANEOUS,
 ) -> Layers:
     """Add layer to layer until the start is covered, or a layer adds nothing (theory 7).
 
@@ -87,6 +90,8 @@ def layers(
     goals : of rank 0; the goal first.
     directions : radians.
     max_steps : the most layers.
+    termination : what conditions know. With state, each new region is aimed at alone besides:
+        such a condition depends on where its motion may begin, and is looked for goal by goal.
     """
     aimed = Field(setting, method, directions)
     found = Layers([Known(number, 0, goal) for number, goal in enumerate(goals)], aimed)
@@ -109,6 +114,8 @@ def layers(
             if found.stopped:
                 return found
             made = _made(aimed, aim, tuple(known), rank, found)
+            if termination is not Termination.INSTANTANEOUS:
+                made += _with_state(aimed, aim, fresh, rank, found, made, start, termination)
             found.regions += made
             added += made
             if progress is not None:
@@ -158,6 +165,40 @@ def _made(
         number = len(found.regions) + len(made)
         made.append(Known(number, rank, preimage.region, preimage, ends))
     return made
+
+
+def _with_state(
+    aimed: Field,
+    aim: Aim,
+    goals: Sequence[Known],
+    rank: int,
+    found: Layers,
+    made: Sequence[Known],
+    start: Start,
+    termination: Termination,
+) -> list[Known]:
+    """The regions from which one new goal alone is recognised by conditions with state."""
+    setting, direction = aimed.setting, aim.command.direction
+    more: list[Known] = []
+    for goal in goals:
+        for begin in (None, start_as_region(start, setting.space)):
+            arguments = setting, [goal.region], direction, aimed.method, termination
+            preimage = stateful_preimage(*arguments, begin)
+            found.computed += 1
+            if preimage is None or preimage.region.is_empty:
+                continue
+            if begin is not None and not covered(start, preimage.region, setting.space):
+                continue
+            probed = _Probed.of(preimage.region)
+            if any(
+                probed.lies_in(one.region, setting.space.tolerance)
+                for one in (*found.regions, *made, *more)
+            ):
+                found.pruned += 1
+                continue
+            number = len(found.regions) + len(made) + len(more)
+            more.append(Known(number, rank, preimage.region, preimage, (goal,)))
+    return more
 
 
 def _is_no_more(region: Region, before: Region, tolerance: Tolerance) -> bool:

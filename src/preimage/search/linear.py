@@ -14,8 +14,10 @@ from preimage.configuration.start import Start, covered, distance_to
 from preimage.preimages.methods import aim, reach
 from preimage.preimages.preimage import Preimage, Target
 from preimage.preimages.setting import Setting
+from preimage.preimages.start_search import stateful_preimage
+from preimage.preimages.starts import start_as_region
 from preimage.search.limits import Limits, Progress
-from preimage.task.options import Method, SearchOrder
+from preimage.task.options import Method, SearchOrder, Termination
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,6 +29,7 @@ class Node:
     region: Region
     parent: Node | None
     preimage: Preimage | None
+    margin: float | None = None  # radians; any direction that near to the preimage's will do
 
     @property
     def chain(self) -> tuple[Node, ...]:
@@ -81,6 +84,7 @@ def search(
     max_steps: int,
     limits: Limits,
     progress: Callable[[Progress], None] | None = None,
+    termination: Termination = Termination.INSTANTANEOUS,
 ) -> Outcome:
     """Backchain from the goal until a preimage holds the start (paper 4, 6).
 
@@ -93,6 +97,8 @@ def search(
     ----------
     directions : radians; tried in this order.
     max_steps : the most motions that a strategy may have.
+    termination : what conditions know. With state, a preimage depends on where its motion may
+        begin: besides large ones, one for the start itself is looked for.
     """
     names = count()
     root = Node(next(names), 0, goal, None, None)
@@ -113,7 +119,11 @@ def search(
             outcome.stopped = limits.exceeded(len(outcome.nodes))
             if outcome.stopped:
                 return outcome
-            for made in _expand(setting, node, direction, method, outcome):
+            if termination is Termination.INSTANTANEOUS:
+                more = _expand(setting, node, direction, method, outcome)
+            else:
+                more = _with_state(setting, node, direction, method, termination, start, outcome)
+            for made in more:
                 child = Node(next(names), node.rank + 1, made.region, node, made)
                 outcome.nodes.append(child)
                 if covered(start, child.region, setting.space):
@@ -137,24 +147,53 @@ def _expand(
     target = aim(setting, node.region, direction, method)
     if target.region.is_empty:
         return
-    key = direction, _digest(target)
+    key = direction, digest_of(target)
     if outcome._seen.get(key, math.inf) <= node.rank + 1:
         outcome.pruned += 1
         return
     outcome._seen[key] = node.rank + 1
     outcome.computed += 1
     made = reach(setting, node.region, direction, method, target)
-    tolerance = setting.space.tolerance
-    if made.region.is_empty or any(
-        known.rank <= node.rank + 1 and is_subset(made.region, known.region, tolerance)
-        for known in outcome.nodes
-    ):
+    if _is_known(setting, made, node.rank + 1, outcome):
         outcome.pruned += 1
         return
     yield made
 
 
-def _digest(target: Target) -> bytes:
+def _with_state(
+    setting: Setting,
+    node: Node,
+    direction: float,
+    method: Method,
+    termination: Termination,
+    start: Start,
+    outcome: Outcome,
+) -> Iterator[Preimage]:
+    """A large preimage of a node's region by conditions with state, and one for the start."""
+    goals = [node.region]
+    made = stateful_preimage(setting, goals, direction, method, termination)
+    outcome.computed += 1
+    if made is None or not covered(start, made.region, setting.space):
+        begin = start_as_region(start, setting.space)
+        other = stateful_preimage(setting, goals, direction, method, termination, begin)
+        outcome.computed += 1
+        if other is not None and covered(start, other.region, setting.space):
+            made = other
+    if made is None or _is_known(setting, made, node.rank + 1, outcome):
+        outcome.pruned += 1
+        return
+    yield made
+
+
+def _is_known(setting: Setting, made: Preimage, rank: int, outcome: Outcome) -> bool:
+    """Whether a preimage is nothing, or lies in a region known at no greater depth."""
+    return made.region.is_empty or any(
+        known.rank <= rank and is_subset(made.region, known.region, setting.space.tolerance)
+        for known in outcome.nodes
+    )
+
+
+def digest_of(target: Target) -> bytes:
     """What tells targets apart: the region, and by what it is recognised."""
     digest = hashlib.blake2b(digest_size=16)
     for region in (target.sticking, target.kernel):

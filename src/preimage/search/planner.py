@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from dataclasses import replace
 
 from preimage.configuration.goals import goal_region
 from preimage.configuration.region import Region
@@ -12,11 +13,21 @@ from preimage.errors import UnsupportedError
 from preimage.preimages.setting import Setting
 from preimage.search import led
 from preimage.search.conditional import Layers, layers
+from preimage.search.continuous import search_continuous
+from preimage.search.failure import hopeless
 from preimage.search.limits import Limits, Progress
 from preimage.search.linear import Node, Outcome, search
-from preimage.search.policy import policy
+from preimage.search.policy import found_so_far, policy
+from preimage.search.reasons import reasons
 from preimage.strategy.strategy import Motion, Statistics, Status, Strategy, StrategyRegion
-from preimage.task.options import Continuous, SearchOrder, StrategyKind, Termination
+from preimage.task.options import (
+    Continuous,
+    PlannerOptions,
+    SearchOrder,
+    StrategyKind,
+    Termination,
+    uniform_directions,
+)
 from preimage.task.task import Task
 
 logger = logging.getLogger(__name__)
@@ -49,19 +60,34 @@ def plan(
     'solved'
     """
     options = task.options
-    if isinstance(options.directions, Continuous):
-        raise UnsupportedError("planner.directions", "continuous directions are not available yet")
-    if options.termination is not Termination.INSTANTANEOUS:
-        rule = f"{options.termination.value} conditions are not available yet"
-        raise UnsupportedError("planner.termination", rule)
+    _refuse_unknown(options)
     limits = Limits(options.time_limit, options.max_regions, cancelled)
     setting = Setting.of(task)
     goal = goal_region(task, setting.space)
     start = start_region(task, setting.space)
-    find = _conditional if options.strategy is StrategyKind.CONDITIONAL else _linear
-    strategy = find(task, setting, goal, start, limits, progress)
+    if options.strategy is StrategyKind.CONDITIONAL:
+        strategy = _conditional(task, setting, [goal], start, limits, progress)
+    else:
+        strategy = _linear(task, setting, goal, start, limits, progress)
+    if strategy.status is not Status.SOLVED and not limits.exceeded(0):
+        strategy = _second_best(task, setting, goal, start, limits, progress, strategy)
     logger.info("%d regions in %.3f s", strategy.statistics.regions, limits.seconds)
     return strategy
+
+
+def _refuse_unknown(options: PlannerOptions) -> None:
+    """Refuse what does not go together."""
+    conditional = options.strategy is StrategyKind.CONDITIONAL
+    with_state = options.termination is not Termination.INSTANTANEOUS
+    if isinstance(options.directions, Continuous) and (conditional or with_state):
+        rule = "continuous directions are for linear strategies with instantaneous conditions"
+        raise UnsupportedError("planner.directions", rule)
+    if isinstance(options.directions, Continuous) and options.or_fail:
+        rule = "a plan that may know its failure needs a list of directions, not continuous ones"
+        raise UnsupportedError("planner.or_fail", rule)
+    if options.search is SearchOrder.LED and with_state and not conditional:
+        rule = "led searches know instantaneous conditions alone"
+        raise UnsupportedError("planner.search", rule)
 
 
 def _linear(
@@ -73,13 +99,23 @@ def _linear(
     progress: Callable[[Progress], None] | None,
 ) -> Strategy:
     options = task.options
-    assert not isinstance(options.directions, Continuous)
     directions, method, most = options.directions, options.method, options.max_steps
-    if options.search is SearchOrder.LED:
+    if isinstance(directions, Continuous):
+        outcome = search_continuous(setting, goal, start, options, limits, progress)
+    elif options.search is SearchOrder.LED:
         outcome = led.search(setting, goal, start, directions, method, most, limits, progress)
     else:
         outcome = search(
-            setting, goal, start, directions, method, options.search, most, limits, progress
+            setting,
+            goal,
+            start,
+            directions,
+            method,
+            options.search,
+            most,
+            limits,
+            progress,
+            options.termination,
         )
     return _strategy(task, setting, outcome, limits.seconds)
 
@@ -87,7 +123,7 @@ def _linear(
 def _conditional(
     task: Task,
     setting: Setting,
-    goal: Region,
+    goals: list[Region],
     start: Start,
     limits: Limits,
     progress: Callable[[Progress], None] | None,
@@ -96,15 +132,41 @@ def _conditional(
     assert not isinstance(options.directions, Continuous)
     found = layers(
         setting,
-        [goal],
+        goals,
         start,
         options.directions,
         options.method,
         options.max_steps,
         limits,
         progress,
+        options.termination,
     )
     return _policy(task, setting, found, limits.seconds)
+
+
+def _second_best(
+    task: Task,
+    setting: Setting,
+    goal: Region,
+    start: Start,
+    limits: Limits,
+    progress: Callable[[Progress], None] | None,
+    strategy: Strategy,
+) -> Strategy:
+    """Where there is no plan: one that may know its failure, if that is asked for, or why."""
+    options = task.options
+    directions = options.directions
+    if options.or_fail and not isinstance(directions, Continuous):
+        lost = hopeless(setting, goal, directions, limits)
+        if not lost.is_empty:
+            other = _conditional(task, setting, [goal, lost], start, limits, progress)
+            if other.status is Status.SOLVED:
+                return other
+    if options.termination is not Termination.INSTANTANEOUS:
+        return strategy
+    chosen = uniform_directions(16) if isinstance(directions, Continuous) else directions
+    why = reasons(setting, start, strategy.regions, chosen, options.method, options.strategy)
+    return replace(strategy, why=why)
 
 
 def _policy(task: Task, setting: Setting, found: Layers, seconds: float) -> Strategy:
@@ -125,7 +187,7 @@ def _policy(task: Task, setting: Setting, found: Layers, seconds: float) -> Stra
         space=setting.space,
         status=status,
         kind=StrategyKind.CONDITIONAL,
-        regions=policy(found.aimed, found.start or found.regions, goals),
+        regions=policy(found.aimed, found.start, goals) if found.start else found_so_far(found),
         start=tuple(known.id for known in found.start),
         steps=(),
         statistics=statistics,

@@ -15,7 +15,7 @@ from preimage.geometry.area import Area
 from preimage.preimages.shared import told_of
 from preimage.recognition.confusion import told_together
 from preimage.search.aims import Field
-from preimage.search.conditional import Known
+from preimage.search.conditional import Known, Layers
 from preimage.strategy.strategy import Motion, StrategyRegion
 
 ROUNDING = 4.0
@@ -52,6 +52,11 @@ def policy(
     for known in start:
         use(known)
     return tuple(_region(one) for _, one in sorted(used.items()))
+
+
+def found_so_far(found: Layers) -> tuple[StrategyRegion, ...]:
+    """All regions of a search that did not come to its end, by id."""
+    return tuple(_region(_Used(known, known.goals, known.rank)) for known in found.regions)
 
 
 def _needed(aimed: Field, known: Known) -> tuple[Known, ...]:
@@ -103,4 +108,5 @@ def _region(used: _Used) -> StrategyRegion:
             target=known.preimage.target.region,
             termination=known.preimage.termination,
         )
-    return StrategyRegion(known.id, used.rank, known.region, motion)
+    failure = motion is None and known.id != 0
+    return StrategyRegion(known.id, used.rank, known.region, motion, failure)

@@ -16,14 +16,18 @@ from preimage.recognition.termination import (
     ReadingCondition,
     StickingCondition,
 )
+from preimage.strategy.decisions import decision_list
+from preimage.strategy.reason import shown_reasons
 from preimage.strategy.strategy import Motion, Status, Strategy, StrategyRegion
 from preimage.strategy.words import (
     arrow,
     contact_lines,
     count,
+    degrees,
     direction_words,
     joined,
     number,
+    place,
     region_words,
     shortened,
 )
@@ -108,7 +112,11 @@ def _headline(strategy: Strategy) -> Iterator[str]:
     task, options = strategy.task, strategy.task.options
     if strategy.status is Status.SOLVED:
         most = max(strategy.region(number).rank for number in strategy.start)
-        if strategy.kind is StrategyKind.LINEAR:
+        if strategy.failures:
+            result = (
+                f"ends in the goal, or knows that it has failed, in {count(most, 'motion')} at most"
+            )
+        elif strategy.kind is StrategyKind.LINEAR:
             result = f"solved in {count(len(strategy.steps), 'motion')}"
         else:
             result = f"solved in {count(most, 'motion')} at most"
@@ -128,6 +136,8 @@ def _headline(strategy: Strategy) -> Iterator[str]:
     )
     yield f"  start: {start_words(task.initial)}"
     yield f"  goal: {region_words(strategy.region(0).region)}"
+    for region in strategy.failures:
+        yield f"  out of reach of it: region {region.id}, {region_words(region.region)}"
 
 
 def _body(strategy: Strategy) -> Iterator[str]:
@@ -142,6 +152,8 @@ def _body(strategy: Strategy) -> Iterator[str]:
             yield from _motion(strategy, region, f"motion {index} of {total}")
     else:
         yield f"begins in {_regions(strategy.start, 'or')}"
+        yield ""
+        yield from decision_list(strategy).splitlines()
         for region in sorted(strategy.regions, key=lambda one: (one.rank, one.id)):
             if region.motion is not None:
                 name = f"in region {region.id}, with {count(region.rank, 'motion')} left at most"
@@ -153,6 +165,9 @@ def _motion(strategy: Strategy, region: StrategyRegion, name: str) -> Iterator[s
     assert motion is not None
     yield ""
     yield f"{name}: {arrow(motion.direction)} {direction_words(motion.direction)}"
+    if motion.margin is not None:
+        low, high = motion.direction - motion.margin, motion.direction + motion.margin
+        yield f"  tolerates   any direction from {degrees(low)} to {degrees(high)} will do"
     yield f"  from        {_region_name(region.id)}: {region_words(region.region)}"
     yield f"  aims at     {region_words(motion.target)}"
     for line in contact_lines(motion.target, strategy.space):
@@ -172,6 +187,7 @@ def _what_was_found(strategy: Strategy) -> Iterator[str]:
     preimages = [region for region in strategy.regions if region.motion is not None]
     if not preimages:
         yield "no motion is known to end in the goal"
+        yield from _what_stands_in_the_way(strategy)
         return
     yield f"{count(len(preimages), 'preimage')} found, and the start is in none of them"
     for region in sorted(preimages, key=_size)[:MOST]:
@@ -182,6 +198,16 @@ def _what_was_found(strategy: Strategy) -> Iterator[str]:
         )
     if len(preimages) > MOST:
         yield f"  and {len(preimages) - MOST} smaller ones"
+    yield from _what_stands_in_the_way(strategy)
+
+
+def _what_stands_in_the_way(strategy: Strategy) -> Iterator[str]:
+    if not strategy.why:
+        return
+    origin = next((reason.origin for reason in strategy.why if reason.origin), None)
+    yield f"what stands in the way{f' from {place(origin)}' if origin else ''}:"
+    for line in shown_reasons(strategy.why):
+        yield f"  {line}"
 
 
 def _size(region: StrategyRegion) -> tuple[float, float, int]:

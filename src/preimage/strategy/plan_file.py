@@ -90,9 +90,13 @@ def read_plan(source: str | os.PathLike[str] | Mapping[str, Any]) -> Strategy:
 
 def _region(region: StrategyRegion, space: ConfigurationSpace) -> Data:
     data: Data = {"id": int(region.id), "rank": int(region.rank)}
+    if region.failure:
+        data["failure"] = True
     motion = region.motion
     if motion is not None:
         data["direction"] = float(to_degrees(representable(motion.direction)))
+        if motion.margin is not None:
+            data["margin"] = float(to_degrees(motion.margin))
     data["geometry"] = region_to_geojson(region.region, space)
     if motion is not None:
         data["goals"] = [int(goal) for goal in motion.goals]

@@ -29,6 +29,7 @@ VERSION = 1
 REQUIRED = ("version", "task", "status", "strategy", "regions", "start")
 OPTIONAL = ("steps", "statistics")
 MOTION = ("direction", "goals", "target", "termination")
+OPTIONAL_OF_MOTION = ("margin",)
 STATISTICS = ("regions", "seconds")
 CONDITIONS: dict[str, tuple[str, ...]] = {
     "sticking": ("period", "distance"),
@@ -39,6 +40,7 @@ CONDITIONS: dict[str, tuple[str, ...]] = {
 NUMBER = Range(0, limits.REGIONS.high)
 PERIOD = Range(0.0, 1e18, low_open=True)
 DISTANCE = Range(0.0, 1e18)
+MARGIN = Range(0.0, 180.0, unit="degrees")
 SECONDS = Range(0.0, 1e18)
 
 
@@ -89,22 +91,30 @@ def _strategy(top: Mapping[str, Any]) -> Strategy:
 
 def _region(value: object, key: str, space: ConfigurationSpace) -> StrategyRegion:
     common = ("id", "rank", "geometry")
-    data = fields(value, key, common, MOTION)
+    data = fields(value, key, common, ("failure", *MOTION, *OPTIONAL_OF_MOTION))
     number = checks.integer(data["id"], f"{key}.id", NUMBER)
     rank = checks.integer(data["rank"], f"{key}.rank", NUMBER)
+    failure = number != 0 and "failure" in data
     if number == 0:
         fields(value, key, common)
         if rank != 0:
             raise InputError(f"{key}.rank", f"must be 0 for the goal, not {rank}")
+    elif failure:
+        fields(value, key, (*common, "failure"))
+        if not checks.truth(data["failure"], f"{key}.failure"):
+            raise InputError(f"{key}.failure", "must be true where it is given")
+        if rank != 0:
+            raise InputError(f"{key}.rank", f"must be 0 for a region of failure, not {rank}")
     else:
-        fields(value, key, (*common, *MOTION))
+        fields(value, key, (*common, *MOTION), OPTIONAL_OF_MOTION)
         if rank == 0:
             raise InputError(f"{key}.rank", "must be 1 or more for a preimage, not 0")
     return StrategyRegion(
         id=number,
         rank=rank,
         region=region_from_geojson(data["geometry"], space, f"{key}.geometry"),
-        motion=_motion(data, key, space) if number else None,
+        motion=None if number == 0 or failure else _motion(data, key, space),
+        failure=failure,
     )
 
 
@@ -123,7 +133,14 @@ def _motion(data: Mapping[str, Any], key: str, space: ConfigurationSpace) -> Mot
             _condition(item, f"{key}.termination[{index}]", space)
             for index, item in enumerate(conditions)
         ),
+        margin=_margin(data, key),
     )
+
+
+def _margin(data: Mapping[str, Any], key: str) -> float | None:
+    if "margin" not in data:
+        return None
+    return to_radians(checks.number(data["margin"], f"{key}.margin", MARGIN))
 
 
 def _condition(value: object, key: str, space: ConfigurationSpace) -> Condition:
@@ -221,7 +238,8 @@ def _check_route(strategy: Strategy) -> None:
     for place, (number, following) in enumerate(pairwise((*steps, 0))):
         motion = regions[number].motion
         if motion is None:
-            raise InputError(f"steps[{place}]", "must be a preimage, not the goal")
+            name = "a region of failure" if regions[number].failure else "the goal"
+            raise InputError(f"steps[{place}]", f"must be a preimage, not {name}")
         if following not in motion.goals:
             rule = f"must have region {following} among its goals, and region {number} has not"
             raise InputError(f"steps[{place}]", rule)

@@ -13,9 +13,11 @@ from preimage.geometry.geojson import MAX_COORDINATE
 from preimage.strategy.plan_parse import (
     CONDITIONS,
     DISTANCE,
+    MARGIN,
     MOTION,
     NUMBER,
     OPTIONAL,
+    OPTIONAL_OF_MOTION,
     PERIOD,
     REQUIRED,
     SECONDS,
@@ -70,7 +72,7 @@ def plan_schema() -> Schema:
 
 
 def _region() -> Schema:
-    """The goal, or a preimage with all that belongs to its motion."""
+    """The goal, a region of known failure, or a preimage with all that belongs to its motion."""
     geometry: Schema = {"$ref": "#/$defs/geometry"}
     common: Schema = {"id": _number(NUMBER, "integer"), "rank": _number(NUMBER, "integer")}
     goal = {**common, "id": {"const": 0}, "rank": {"const": 0}, "geometry": geometry}
@@ -86,7 +88,10 @@ def _region() -> Schema:
     }
     above = {word: {**rule, "minimum": 1} for word, rule in common.items()}
     preimage = {**above, "geometry": geometry, **{word: motion[word] for word in MOTION}}
-    return {"oneOf": [_record(goal), _record(preimage)]}
+    margin = {**_number(MARGIN), "description": "how far off direction may be"}
+    failure = {**goal, "id": above["id"], "failure": {"const": True}}
+    moving = _record(preimage, dict.fromkeys(OPTIONAL_OF_MOTION, margin))
+    return {"oneOf": [_record(goal), moving, _record(failure)]}
 
 
 def _condition(kind: str) -> Schema:
@@ -121,10 +126,10 @@ def _geometries() -> Schema:
     }
 
 
-def _record(properties: Schema) -> Schema:
+def _record(properties: Schema, optional: Schema | None = None) -> Schema:
     return {
         "type": "object",
-        "properties": properties,
+        "properties": {**properties, **(optional or {})},
         "required": list(properties),
         "additionalProperties": False,
     }

@@ -9,6 +9,7 @@ from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.display import Shown
 from preimage.recognition.termination import Condition
+from preimage.strategy.reason import Reason
 from preimage.task.options import StrategyKind
 from preimage.task.task import Task
 
@@ -31,29 +32,36 @@ class Motion:
     goals : ids of the regions in one of which the motion ends.
     target : what the motion aims at: kernel, sticking features, or both.
     termination : the conditions; the first one that holds ends the motion.
+    margin : radians: with any direction no further off than this, commanded instead, the motion
+        keeps the same promise under the same conditions, whatever other motions make of their own
+        margins. None if nothing is known.
     """
 
     direction: float
     goals: tuple[int, ...]
     target: Region
     termination: tuple[Condition, ...]
+    margin: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StrategyRegion:
-    """The goal, or a preimage with its motion (files.md).
+    """The goal, a preimage with its motion, or a region of known failure (files.md).
 
     Parameters
     ----------
     id : its number; 0 is the goal.
-    rank : how many motions may remain from here; 0 for the goal.
-    motion : None for the goal.
+    rank : how many motions may remain from here; 0 for the goal and for failure.
+    motion : None for the goal and for failure.
+    failure : from here the goal cannot be reached any more; a plan that ends here has failed, and
+        knows it (theory 7).
     """
 
     id: int
     rank: int
     region: Region
     motion: Motion | None
+    failure: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +85,7 @@ class Strategy(Shown):
         else all that were found.
     start : ids of the regions that may be chosen at the start.
     steps : for a linear plan, the regions in the order of execution, the goal left out.
+    why : what stands in the way where there is no strategy, the most promising direction first.
     """
 
     task: Task
@@ -88,6 +97,12 @@ class Strategy(Shown):
     steps: tuple[int, ...]
     statistics: Statistics
     reason: str = ""  # which limit stopped the planner
+    why: tuple[Reason, ...] = ()
+
+    @property
+    def failures(self) -> tuple[StrategyRegion, ...]:
+        """The regions of known failure; none if all that is planned ends in the goal."""
+        return tuple(region for region in self.regions if region.failure)
 
     def region(self, number: int) -> StrategyRegion:
         """The region with this id."""

@@ -1,4 +1,4 @@
-"""Write docs/named-tasks.md: every named task by every method, with motions, regions and time.
+"""Write docs/named-tasks.md: every named task by every method and conditional, with its time.
 
 Run from anywhere: `python examples/tables/named_tasks.py [FILE]`.
 """
@@ -11,6 +11,7 @@ from pathlib import Path
 from time import perf_counter
 
 from preimage import Method, Status, Task, named_task, named_tasks, plan
+from preimage.task import StrategyKind
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "named-tasks.md"
 
@@ -25,6 +26,9 @@ For each task and method: the *motions* of the shortest strategy for the task's 
 where the search was exhausted without one; the *regions* that were made until then, the goal among
 them; and the *time* in milliseconds, the best of several plans in one process that had warmed up,
 the configuration space included. Times are of the machine at hand; compare them with each other.
+
+The last columns are of the conditional strategy by the combined method: the motions at most, and
+the regions made. No plan here may end in known failure (`or_fail` is off).
 """
 
 
@@ -36,7 +40,7 @@ def shortest(task: Task, runs: int = 5, enough: float = 1.0) -> tuple[str, int, 
         strategy = plan(task)
         times.append(perf_counter() - began)
     motions = {
-        Status.SOLVED: str(len(strategy.steps)),
+        Status.SOLVED: str(max(strategy.region(number).rank for number in strategy.start or (0,))),
         Status.UNSOLVABLE: "–",
         Status.STOPPED: "stopped",
     }[strategy.status]
@@ -46,18 +50,23 @@ def shortest(task: Task, runs: int = 5, enough: float = 1.0) -> tuple[str, int, 
 def row(name: str) -> str:
     """A task's row of the table."""
     task = named_task(name)
+    options = replace(task.options, or_fail=False)
     cells = [f"`{name}`"]
     for method in Method:
-        options = replace(task.options, method=method)
-        motions, regions, time = shortest(replace(task, options=options))
+        linear = replace(options, method=method, strategy=StrategyKind.LINEAR)
+        motions, regions, time = shortest(replace(task, options=linear))
         cells += [motions, str(regions), f"{time:.1f}"]
+    conditional = replace(options, method=Method.COMBINED, strategy=StrategyKind.CONDITIONAL)
+    motions, regions, time = shortest(replace(task, options=conditional))
+    cells += [motions, str(regions), f"{time:.1f}"]
     return "| " + " | ".join(cells) + " |"
 
 
 def table(names: tuple[str, ...]) -> str:
     """The tasks by method, as a table in Markdown."""
     head = ["task", *(f"{method.value} | regions | ms" for method in Method)]
-    lines = ["| " + " | ".join(head) + " |", "|---|" + "--:|" * 3 * len(Method)]
+    head.append("conditional | regions | ms")
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "--:|" * 3 * (len(Method) + 1)]
     return "\n".join([*lines, *map(row, names)])
 
 

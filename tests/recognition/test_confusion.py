@@ -1,6 +1,7 @@
 """What is told apart, and what several goals tell together, against the plain definitions."""
 
 import math
+from random import Random
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from preimage.configuration.region import Region
 from preimage.recognition.confusion import told_apart, told_together
 from preimage.recognition.interpretation import Interpretation, contained
 from preimage.recognition.outside import outside
-from preimage.recognition.readings import alike
+from preimage.recognition.readings import alike, readings
 from preimage.task.uncertainty import Uncertainty
 from tests.recognition.cases import Case, random_case
 from tests.strategies import random_target
@@ -33,18 +34,12 @@ def places(case: Case, part: ContactSet, count: int) -> list[tuple[int, np.ndarr
     return found + [(n + int(vertex), contact.points[vertex]) for vertex in part.vertices]
 
 
-def in_part(part: ContactSet, n: int, edge: int, distance: float) -> bool:
-    return part.has_vertex(edge - n) if edge >= n else part.contains(edge, distance, 0.0)
-
-
 def senses(case: Case, position: float) -> Uncertainty:
     own = case.senses
     return Uncertainty(own.control, position, own.force_angle, own.force_thresholds)
 
 
 def another(case: Case, seed: int) -> Region:
-    from random import Random
-
     return random_target(Random(seed + 1), case.space, case.direction, seed % 2 == 0)
 
 
@@ -58,7 +53,6 @@ def test_what_is_told_apart_is_read_nowhere_else(seed: int, position: float) -> 
     told = told_apart(case.space, case.readings, part, others, uncertainty)
     assert contact_set.is_subset(told, part, near)
     gone = contact_set.difference(part, told, near)
-    n = len(case.space.contact)
     rest = places(case, others, 40)
     reach = 2.0 * max(position, near)
     features = np.array([feature for feature, _ in rest], dtype=np.intp)
@@ -78,23 +72,21 @@ def test_what_is_told_apart_is_read_nowhere_else(seed: int, position: float) -> 
         return
     step = float(np.max(others.high - others.low, initial=0.0)) / 39
     for feature, point in places(case, gone, 12):  # nothing goes without a cause
-        confused = alike(case.readings, feature, np.arange(2 * n + 1, dtype=np.intp))
-        assert np.any(confused[features]) or step > 0
         assert nearest(feature, point) <= reach + step + 4.0 * near
 
 
 def some_readings(case: Case, vertex: int) -> list[float | None]:
     """What can be read at a vertex: 0, and forces, the ends of intervals among them."""
-    readings = case.readings
-    feature = readings.size + vertex
-    own: list[float | None] = [None] if readings.zero[feature] else []
-    center, half = float(readings.center[feature]), float(readings.half[feature])
+    known = case.readings
+    feature = known.size + vertex
+    own: list[float | None] = [None] if known.zero[feature] else []
+    center, half = float(known.center[feature]), float(known.half[feature])
     if half < 0.0:
         return own
     angles = [*np.linspace(center - half, center + half, 41)]
-    for other in np.flatnonzero(readings.half >= 0.0).tolist():
+    for other in np.flatnonzero(known.half >= 0.0).tolist():
         for sign in (-1.0, 1.0):
-            end = float(readings.center[other]) + sign * float(readings.half[other])
+            end = float(known.center[other]) + sign * float(known.half[other])
             angles += [end - 1e-7, end, end + 1e-7]
     return own + [
         angle for angle in angles if abs((angle - center + math.pi) % math.tau - math.pi) <= half
@@ -104,21 +96,21 @@ def some_readings(case: Case, vertex: int) -> list[float | None]:
 def check_together(case: Case, goals: list[Region], position: float, seed: int) -> int:
     """Wherever q and whatever f is read at a vertex that is told, some goal holds K(q, f)."""
     uncertainty = senses(case, position)
-    space, readings = case.space, case.readings
+    space = case.space
     candidates = np.unique(np.concatenate([goal.contact.vertices for goal in goals]))
-    found = told_together(space, readings, goals, candidates.astype(np.int32), uncertainty)
+    found = told_together(space, case.readings, goals, candidates.astype(np.int32), uncertainty)
     rests = [outside(space, goal, None) for goal in goals]
     rng = np.random.default_rng(seed)
     for vertex in found.tolist():
         point = space.contact.points[vertex]
         for force in some_readings(case, vertex):
-            features = readings.can_read(force)
+            features = case.readings.can_read(force)
             for _ in range(2):
                 off, turn = rng.choice((0.0, 0.5, 0.999)), rng.uniform(0.0, math.tau)
                 far = off * position if math.isfinite(position) else 3.0
                 q = (float(point[0] + far * np.cos(turn)), float(point[1] + far * np.sin(turn)))
                 told = Interpretation(q, position, features)
-                assert any(contained(space, readings, told, rest) for rest in rests)
+                assert any(contained(space, case.readings, told, rest) for rest in rests)
     return len(found)
 
 
@@ -151,11 +143,7 @@ def test_nothing_is_told_apart_from_itself_and_all_from_nothing(seed: int) -> No
     none = ContactSet.empty()
     assert told_apart(case.space, case.readings, part, none, case.senses) is part
     mute = Uncertainty(case.senses.control, math.inf, 0.0, (math.inf, math.inf))
-    from preimage.recognition.readings import readings
-
-    dumb = readings(
-        case.space.contact, case.direction, mute, case.friction, case.space.tolerance
-    )
+    dumb = readings(case.space.contact, case.direction, mute, case.friction, case.space.tolerance)
     others = contact_set.difference(case.space.valid.contact, part, near)
     if not others.is_empty:
         assert told_apart(case.space, dumb, part, others, mute).is_empty

@@ -50,16 +50,16 @@ REFUSED: list[tuple[list[str], str]] = [
     (["plan", "task.yaml", "--frobnicate"], "No such option '--frobnicate' (see preimage plan"),
     (["frobnicate"], "No such command 'frobnicate' (see preimage --help)"),
     (
-        ["plan", "task.yaml", "--strategy", "conditional"],
-        "task.yaml: planner.strategy: conditional strategies are not available yet",
+        ["plan", "task.yaml", "--directions", "continuous", "--strategy", "conditional"],
+        "task.yaml: planner.directions: continuous directions are for linear strategies with",
     ),
     (
-        ["plan", "task.yaml", "--termination", "final-state"],
-        "task.yaml: planner.termination: final-state conditions are not available yet",
+        ["plan", "task.yaml", "--termination", "final-state", "--search", "led"],
+        "task.yaml: planner.search: led searches know instantaneous conditions alone",
     ),
     (
-        ["plan", "task.yaml", "--directions", "continuous"],
-        "task.yaml: planner.directions: continuous directions are not available yet",
+        ["plan", "task.yaml", "--directions", "continuous", "--or-fail"],
+        "task.yaml: planner.or_fail: a plan that may know its failure needs a list of directions",
     ),
     (["plan", "task.yaml", "-o", "no/plan.json"], "no/plan.json: cannot be written: No such file"),
     (["plan", "task.yaml", "-o", "folder"], "folder: is a directory, not a file"),

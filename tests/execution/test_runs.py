@@ -316,18 +316,20 @@ def test_starts_may_be_points() -> None:
     space, contact = strategy.space, strategy.space.contact
     edge = int(contact.edges[0])
     middle = contact.at(np.array([edge], np.int32), np.array([0.5 * contact.length[edge]]))[0]
-    corner = contact.points[contact.vertices[0]]
+    peg = planned("peg-in-hole").space
+    inner = np.setdiff1d(np.flatnonzero(peg.contact.concave), peg.contact.outermost)
+    corner = peg.contact.points[inner[0]]
     inside = space.free.geometry.representative_point()
     rng = np.random.default_rng(0)
-    for point, kind in (
-        (middle, StartKind.EDGE_POINT),
-        (corner, StartKind.VERTEX),
-        ((inside.x, inside.y), StartKind.FREE_POINT),
+    for point, kind, where in (
+        (middle, StartKind.EDGE_POINT, space),
+        (corner, StartKind.VERTEX, peg),
+        ((inside.x, inside.y), StartKind.FREE_POINT, space),
     ):
         place = InitialPoint((float(point[0]), float(point[1])))
-        start = start_region(replace(strategy.task, initial=place), space)
+        start = start_region(replace(strategy.task, initial=place), where)
         assert start.kind is kind
-        robots = of_start(space, start, 3, rng)
+        robots = of_start(where, start, 3, rng)
         assert np.allclose(robots.places, point, atol=1e-9)
 
 

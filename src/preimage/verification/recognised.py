@@ -135,6 +135,7 @@ def recognised(
     search = _Search(space, sets, rest, position)
     tolerance = space.tolerance.length
     part = contact_set.intersection(target.contact, goal.contact, tolerance)
+    part = contact_set.without_outermost(part, space.contact)  # who is there has escaped
     for edge, low, high in zip(
         part.edge.tolist(), part.low.tolist(), part.high.tolist(), strict=True
     ):

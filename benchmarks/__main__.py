@@ -10,6 +10,7 @@ from benchmarks.directions import compasses
 from benchmarks.execution import motions
 from benchmarks.executor import executors
 from benchmarks.forward import forward_growth
+from benchmarks.layers import fixpoints
 from benchmarks.planning import processes, small_scenes, whole_plans
 from benchmarks.timing import table
 
@@ -19,6 +20,7 @@ BENCHMARKS = {
     "Small scenes": small_scenes,
     "All directions": compasses,
     "Whole plans": whole_plans,
+    "Conditional layers": fixpoints,
     "Processes": processes,
     "Motions": motions,
     "Readings": executors,

@@ -317,7 +317,7 @@ def test_starts_may_be_points() -> None:
     edge = int(contact.edges[0])
     middle = contact.at(np.array([edge], np.int32), np.array([0.5 * contact.length[edge]]))[0]
     peg = planned("peg-in-hole").space
-    inner = np.setdiff1d(np.flatnonzero(peg.contact.concave), peg.contact.outermost)
+    inner = np.intersect1d(np.flatnonzero(peg.contact.concave), peg.valid.contact.vertices)
     corner = peg.contact.points[inner[0]]
     inside = space.free.geometry.representative_point()
     rng = np.random.default_rng(0)

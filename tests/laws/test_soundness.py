@@ -16,7 +16,7 @@ from preimage.preimages.setting import Setting
 from preimage.search.planner import plan
 from preimage.strategy.strategy import Status
 from preimage.task.examples import named_task, named_tasks
-from preimage.task.options import Method, SearchOrder, StrategyKind
+from preimage.task.options import Method, SearchOrder, StrategyKind, Termination
 from preimage.task.task import SlidingLaw
 from preimage.task.uncertainty import Uncertainty
 from tests.laws.adversaries import CONTROLS
@@ -150,7 +150,9 @@ OPTIONS = {name: named_task(name).options for name in named_tasks()}
 LINEAR = [
     name
     for name, options in OPTIONS.items()
-    if options.strategy is StrategyKind.LINEAR and not options.or_fail
+    if options.strategy is StrategyKind.LINEAR
+    and options.termination is Termination.INSTANTANEOUS
+    and not options.or_fail
 ]
 NAMED = [*LINEAR, "comb-2", "comb-5", "saw-tooth-4", "hall-6"]
 

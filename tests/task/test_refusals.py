@@ -244,7 +244,7 @@ TABLE: list[tuple[Path, Any, str, bool]] = [
     (("planner", "method"), "kernels", "planner.method: must be sticking, kernel or combine", True),
     (("planner", "strategy"), 1, "planner.strategy: must be linear or conditional, not 1", True),
     (("planner", "termination"), None, "planner.termination: must be instantaneous", True),
-    (("planner", "search"), "depth", "planner.search: must be breadth-first, best-first or led", True),
+    (("planner", "search"), "depth", "planner.search: must be breadth-first, best-first", True),
     (
         ("planner", "max_steps"),
         0,

@@ -127,7 +127,7 @@ def gain(size: float, plain: float) -> str:
 
 def motions(task: Task, method: Method, termination: Termination) -> str:
     """How many motions the plan has; “?” if the planner does not know the condition."""
-    options = replace(task.options, method=method, termination=termination, time_limit=60.0)
+    options = replace(task.options, method=method, termination=termination, time_limit=15.0)
     try:
         strategy = plan(replace(task, options=options))
     except UnsupportedError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from preimage.configuration.obstacles import configuration_space
@@ -42,6 +42,12 @@ class Setting:
             sliding=task.sliding,
             arc_tolerance=task.options.arc_tolerance,
         )
+
+    @cached_property
+    def blurred(self) -> Uncertainty:
+        """The bounds, with a position error that is larger by the tolerance."""
+        position = self.uncertainty.position + self.space.tolerance.length
+        return replace(self.uncertainty, position=position)
 
     def command(self, direction: float) -> Command:
         """The command along `direction`, radians; always the same object for the same number."""

@@ -115,7 +115,8 @@ def resting(
 
     `S <= U_i kernel(T_i; v, S)`: what cannot be told from all of S outside a goal, for any of its
     goals, goes; then what has gone comes back, piece by piece, the largest first, as far as it
-    confuses nothing that is there.
+    confuses nothing that is there. What is as thin as the tolerance is told too: for that the
+    position error counts as larger by as much.
 
     Parameters
     ----------
@@ -133,7 +134,7 @@ def resting(
         new = contact_set.difference(pool, kept, near)
         lasting = contact_set.intersection(doubtful, kept, near)
         rest = contact_set.difference(new, doubtful, near)
-        clear = told_apart(setting.space, command.readings, rest, lasting, setting.uncertainty)
+        clear = told_apart(setting.space, command.readings, rest, lasting, setting.blurred)
         smaller = contact_set.union(kept, clear, near)
         if contact_set.is_subset(pool, smaller, near):
             smaller = kept  # no wider than what is taken for nothing
@@ -155,7 +156,7 @@ def told_of(setting: Setting, goal: Region, pool: ContactSet, command: Command) 
     near = setting.space.tolerance.length
     own = contact_set.intersection(pool, goal.contact, near)
     other = contact_set.difference(pool, goal.contact, near)
-    return told_apart(setting.space, command.readings, own, other, setting.uncertainty)
+    return told_apart(setting.space, command.readings, own, other, setting.blurred)
 
 
 def _untold(

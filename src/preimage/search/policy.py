@@ -63,7 +63,7 @@ def _needed(aimed: Field, known: Known) -> tuple[Known, ...]:
     """The goals without which something of the target would not be told, by rank."""
     assert known.preimage is not None
     setting, space = aimed.setting, aimed.setting.space
-    near, slack = space.tolerance.length, ROUNDING * space.tolerance.grid
+    slack = ROUNDING * space.tolerance.grid
     command = setting.command(known.preimage.direction)
     readings, pool = command.readings, known.preimage.target.sticking.contact
     if len(known.goals) == 1:
@@ -80,7 +80,7 @@ def _needed(aimed: Field, known: Known) -> tuple[Known, ...]:
         if not pool.is_empty:
             held = told_of(setting, known.goals[place].region, pool, command)
             share = regions.union(share, Region(Area.empty(), held), space.tolerance)
-        if contact_set.is_subset(share.contact, sofar.contact, near) and areas.is_subset(
+        if contact_set.is_subset(share.contact, sofar.contact, slack) and areas.is_subset(
             share.area, sofar.area, slack
         ):
             continue

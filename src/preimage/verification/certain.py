@@ -19,6 +19,9 @@ from preimage.verification.features import Features
 from preimage.verification.reading_sets import ReadingSets
 from preimage.verification.recognised import Recognised, recognised, told_by_some
 
+ROUNDS = 4
+"""What arcs cut off is looked at so often: a sliver may be told by one goal here, another there."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Aim:
@@ -94,13 +97,20 @@ def _told_in_parts(
     none = np.empty(0)
     vertices = told_by_some(space, sets, goals, corners, position, domain)
     found = [Region(Area.empty(), ContactSet(np.empty(0, np.int32), none, none, vertices))]
-    for part in areas.difference(target.area, sofar.area).parts:
-        sliver = Region(part, ContactSet.empty())
-        for goal in goals:
-            one = recognised(space, sets, goal, sliver, position, domain).region
-            if one.area.measure == part.measure:
-                found.append(one)
-                break
+    rest = areas.difference(target.area, sofar.area)
+    for _ in range(ROUNDS):
+        parts = [Region(part, ContactSet.empty()) for part in rest.parts]
+        more = [
+            one
+            for part in parts
+            for goal in goals
+            if not (one := recognised(space, sets, goal, part, position, domain).region).is_empty
+        ]
+        if not more:
+            break
+        found += more
+        for one in more:
+            rest = areas.difference(rest, one.area)
     return found
 
 

@@ -107,7 +107,8 @@ def certain_starts(strategy: Strategy) -> Region:
     From the plan's end backwards: `m(H) = H`, `m(goal)` is empty, and of a region `R` with a
     motion along `v` those starts may fail from which some admissible motion meets `m` of a goal of
     the motion, before it meets what of its target is in none of these. The sets `m` are too large
-    rather than too small.
+    rather than too small. Targets are believed: that a plan of unknown origin is proven does not
+    say that its targets are where its motions end.
 
     Returns
     -------

@@ -32,6 +32,7 @@ from preimage.search.compass import Compass, Rose, free_point, grid_points, rose
 from preimage.search.directions import Arc, Verdict
 from preimage.strategy.words import degrees, number, place
 from preimage.task.degrees import to_degrees
+from preimage.task.options import Termination
 from preimage.task.task import InitialPoint
 
 MOST_ROSES = 10_000
@@ -153,6 +154,8 @@ def _table(source: Source, compass: Compass, named: bool) -> list[str]:
         f"{source.task.name}: one motion, {options.method.value} method,"
         f" to {degrees(options.resolution)}"
     ]
+    if options.termination is not Termination.INSTANTANEOUS:
+        lines[0] += f", instantaneous conditions, not the task's {options.termination.value} ones"
     for one in compass.roses:
         lines.append(f"from {place(one.point)}" if named else "from the start")
         if not one.solving:

@@ -14,7 +14,7 @@ from preimage.search.limits import Limits
 from preimage.task.examples import named_task
 from preimage.task.options import Method, uniform_directions
 
-SCENES = (("hall-12", 16), ("hall-38", 8), ("hall-38", 16), ("hall-38", 64), ("comb-50", 64))
+SCENES = (("hall-12", 16), ("hall-38", 8), ("hall-38", 16), ("hall-38", 64), ("comb-50", 8))
 
 NOWHERE = Start(StartKind.FREE_POINT, (1e6, 1e6), -1, 0.0, (), Region.empty())
 """No region holds it, so that layers are added up to the fixpoint."""

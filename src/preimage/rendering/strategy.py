@@ -67,7 +67,13 @@ def title(strategy: Strategy, options: PictureOptions) -> str:
         words = "already there" if not number else f"solved in {_count(number, 'motion')}"
         if not strategy.steps and number:
             most = max((strategy.region(start).rank for start in strategy.start), default=0)
-            words = f"solved in {_count(most, 'motion')} at most, with {_count(number, 'region')}"
+            words = f"{_count(most, 'motion')} at most, with {_count(number, 'region')}"
+            if not strategy.failures:
+                words = f"solved in {words}"
+            elif strategy.can_succeed:
+                words = f"ends in the goal, or knows that it has failed, in {words}"
+            else:
+                words = f"can only fail, and knows it, in {words}"
         if number > options.max_panels:
             words += f", {options.max_panels} of them shown"
         return f"{name}: {words}"

@@ -43,20 +43,23 @@ class Branching(Generic[Choice]):
     ----------
     known : all regions that were seen.
     rest : the part of the start, if that is a region, in none of them.
+    whole : those among the last ones that hold the whole start.
     """
 
     setting: Setting
     start: Start
     known: list[Choice] = field(default_factory=list)
     rest: Outside | None = None
+    whole: list[Choice] = field(default_factory=list)
 
     def further(self, regions: Sequence[Choice]) -> tuple[Choice, ...]:
         """See more regions; the ones to choose from, or none while the start is not solved."""
         space, start = self.setting.space, self.start
         self.known += regions
-        for known in sorted(regions, key=lambda one: one.rank):
-            if covered(start, known.region, space):
-                return (known,)
+        ranked = sorted(regions, key=lambda one: one.rank)
+        self.whole = [known for known in ranked if covered(start, known.region, space)]
+        if self.whole:
+            return (self.whole[0],)
         if start.kind is not StartKind.REGION or np.isinf(self.setting.uncertainty.position):
             return ()
         for known in regions:

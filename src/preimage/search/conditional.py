@@ -54,6 +54,7 @@ class Layers:
     regions : all regions known, by id; ids grow with the rank.
     aimed : what was aimed at.
     start : the regions that may be chosen at the start; empty if it is not covered.
+    others : regions of the same layer any of which would do as well.
     stopped : which limit came first; None if the start was covered or a layer added nothing.
     computed, pruned : how many preimages were computed, and how many of them said nothing new.
     """
@@ -61,9 +62,15 @@ class Layers:
     regions: list[Known]
     aimed: Field
     start: tuple[Known, ...] = ()
+    others: tuple[Known, ...] = ()
     stopped: str | None = None
     computed: int = 0
     pruned: int = 0
+
+    @property
+    def goals(self) -> tuple[Known, ...]:
+        """The regions of rank 0."""
+        return tuple(known for known in self.regions if known.preimage is None)
 
 
 def layers(
@@ -113,7 +120,7 @@ def layers(
             found.stopped = limits.exceeded(len(found.regions))
             if found.stopped:
                 return found
-            made = _made(aimed, aim, tuple(known), rank, found)
+            made = _made(aimed, aim, tuple(known), rank, found, start)
             if termination is not Termination.INSTANTANEOUS:
                 made += _with_state(aimed, aim, fresh, rank, found, made, start, termination)
             found.regions += made
@@ -127,6 +134,7 @@ def layers(
             return found
         found.start = branching.further(added)
         if found.start:
+            found.others = tuple(branching.whole[1:])
             return found
         fresh = sorted(added, key=lambda one: -one.region.area.measure)
         known += fresh
@@ -135,7 +143,7 @@ def layers(
 
 
 def _made(
-    aimed: Field, aim: Aim, goals: tuple[Known, ...], rank: int, found: Layers
+    aimed: Field, aim: Aim, goals: tuple[Known, ...], rank: int, found: Layers, start: Start
 ) -> list[Known]:
     """The new regions of one direction in one layer."""
     setting, tolerance = aimed.setting, aimed.setting.space.tolerance
@@ -157,8 +165,11 @@ def _made(
         else:
             grown = True
         probed = _Probed.of(preimage.region)
-        if not grown or any(
-            probed.lies_in(one.region, tolerance) for one in (*found.regions, *made)
+        # of plans that may end in one goal or another, those that are as short are compared
+        apart = len(found.goals) > 1 and covered(start, preimage.region, setting.space)
+        if not grown or (
+            not apart
+            and any(probed.lies_in(one.region, tolerance) for one in (*found.regions, *made))
         ):
             found.pruned += 1
             continue

@@ -12,9 +12,10 @@ from preimage.configuration.start import Start, start_region
 from preimage.errors import UnsupportedError
 from preimage.preimages.setting import Setting
 from preimage.search import led
-from preimage.search.conditional import Layers, layers
+from preimage.search.conditional import Known, Layers, layers
 from preimage.search.continuous import search_continuous
 from preimage.search.failure import hopeless
+from preimage.search.hoping import judged, promise
 from preimage.search.limits import Limits, Progress
 from preimage.search.linear import Node, Outcome, search
 from preimage.search.policy import found_so_far, policy
@@ -29,6 +30,9 @@ from preimage.task.options import (
     uniform_directions,
 )
 from preimage.task.task import Task
+
+MOST_PLANS = 16
+"""Of plans that are equally short, and may know their failure, so many are compared."""
 
 logger = logging.getLogger(__name__)
 
@@ -66,7 +70,7 @@ def plan(
     goal = goal_region(task, setting.space)
     start = start_region(task, setting.space)
     if options.strategy is StrategyKind.CONDITIONAL:
-        strategy = _conditional(task, setting, [goal], start, limits, progress)
+        strategy = _conditional(task, setting, [goal], start, limits, progress)[0]
     else:
         strategy = _linear(task, setting, goal, start, limits, progress)
     if strategy.status is not Status.SOLVED and not limits.exceeded(0):
@@ -127,7 +131,8 @@ def _conditional(
     start: Start,
     limits: Limits,
     progress: Callable[[Progress], None] | None,
-) -> Strategy:
+) -> list[Strategy]:
+    """What was found: a strategy, and others that are as short; or what there is without one."""
     options = task.options
     assert not isinstance(options.directions, Continuous)
     found = layers(
@@ -141,7 +146,8 @@ def _conditional(
         progress,
         options.termination,
     )
-    return _policy(task, setting, found, limits.seconds)
+    begins = [found.start, *((one,) for one in found.others)]
+    return [_policy(task, found, begin, limits.seconds) for begin in begins[:MOST_PLANS]]
 
 
 def _second_best(
@@ -159,9 +165,9 @@ def _second_best(
     if options.or_fail and not isinstance(directions, Continuous):
         lost = hopeless(setting, goal, directions, limits)
         if not lost.is_empty:
-            other = _conditional(task, setting, [goal, lost], start, limits, progress)
-            if other.status is Status.SOLVED:
-                return other
+            plans = _conditional(task, setting, [goal, lost], start, limits, progress)
+            if plans[0].status is Status.SOLVED:
+                return max((judged(plan) for plan in plans), key=promise)
     if options.termination is not Termination.INSTANTANEOUS:
         return strategy
     chosen = uniform_directions(16) if isinstance(directions, Continuous) else directions
@@ -169,7 +175,7 @@ def _second_best(
     return replace(strategy, why=why)
 
 
-def _policy(task: Task, setting: Setting, found: Layers, seconds: float) -> Strategy:
+def _policy(task: Task, found: Layers, begin: tuple[Known, ...], seconds: float) -> Strategy:
     statistics = Statistics(
         regions=len(found.regions),
         seconds=seconds,
@@ -177,18 +183,17 @@ def _policy(task: Task, setting: Setting, found: Layers, seconds: float) -> Stra
         pruned=found.pruned,
         layers=max(known.rank for known in found.regions),
     )
-    goals = tuple(known for known in found.regions if known.preimage is None)
-    if found.start:
+    if begin:
         status = Status.SOLVED
     else:
         status = Status.STOPPED if found.stopped else Status.UNSOLVABLE
     return Strategy(
         task=task,
-        space=setting.space,
+        space=found.aimed.setting.space,
         status=status,
         kind=StrategyKind.CONDITIONAL,
-        regions=policy(found.aimed, found.start, goals) if found.start else found_so_far(found),
-        start=tuple(known.id for known in found.start),
+        regions=policy(found.aimed, begin, found.goals) if begin else found_so_far(found),
+        start=tuple(known.id for known in begin),
         steps=(),
         statistics=statistics,
         reason=found.stopped or "",

@@ -31,6 +31,12 @@ MOST_FORCES = 400
 MOST_CLAUSES = 3
 """What is read is put into so many clauses at most; beyond that they are drawn together."""
 
+ALONE = "as in this goal alone"
+"""What the position reads where no few words say it."""
+
+PART = "in a part of "
+"""Begins a position for which no half-plane or box will do."""
+
 DIGITS = 1000.0
 """Places on a card are rounded to the window over this."""
 
@@ -75,6 +81,9 @@ class Case:
     @property
     def words(self) -> str:
         """All its clauses."""
+        if any(clause.position == ALONE or PART in clause.position for clause in self.clauses):
+            name = "the goal" if self.goal == 0 else f"region {self.goal}"
+            return f"what is read fits only {name}"
         words = [clause.words for clause in self.clauses]
         return "\n      or ".join(words) or "no place elsewhere fits the readings"
 
@@ -84,8 +93,8 @@ def decision_list(strategy: Strategy) -> str:
 
     What tells a goal is said in terms of readings (theory 5, 7): that a force may be felt at
     nothing outside the goal, or at nothing so near to the measured position. Every clause is
-    sufficient, unless it says "in a part of"; a motion of one goal needs none. The goals of a
-    motion are asked in the order of the executor, the nearest to the end first.
+    sufficient; where none is short, the goal is only named. A motion of one goal needs none. The
+    goals of a motion are asked in the order of the executor, the nearest to the end first.
 
     >>> from preimage.search.planner import plan
     >>> from preimage.task import named_task
@@ -254,7 +263,7 @@ def _clauses(
     if len(places) > MOST_CLAUSES:
         every = sorted((pair for pairs in places.values() for pair in pairs), key=lambda p: p[1])
         forces = tuple(force_words(every)) if feels else ()
-        return (Clause(forces, "as only the places of it allow", rest),)
+        return (Clause(forces, ALONE, rest),)
     return tuple(
         Clause(tuple(force_words(pairs)) if feels else (), words, rest)
         for words, pairs in places.items()
@@ -320,7 +329,7 @@ def _place_words(strategy: Strategy, told: Area, doubtful: Area) -> str:
         box = Area.box(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
         if areas.intersection(box, doubtful).is_empty:
             return f"within {_box(low, high)}"
-    return f"in a part of {_box(np.floor(here[0] / step) * step, np.ceil(here[1] / step) * step)}"
+    return f"{PART}{_box(np.floor(here[0] / step) * step, np.ceil(here[1] / step) * step)}"
 
 
 def _bounds(area: Area) -> tuple[Floats, Floats]:

@@ -112,7 +112,9 @@ def _headline(strategy: Strategy) -> Iterator[str]:
     task, options = strategy.task, strategy.task.options
     if strategy.status is Status.SOLVED:
         most = max(strategy.region(number).rank for number in strategy.start)
-        if strategy.failures:
+        if strategy.failures and not strategy.can_succeed:
+            result = f"can only fail, and knows it, in {count(most, 'motion')} at most"
+        elif strategy.failures:
             result = (
                 f"ends in the goal, or knows that it has failed, in {count(most, 'motion')} at most"
             )
@@ -136,6 +138,10 @@ def _headline(strategy: Strategy) -> Iterator[str]:
     )
     yield f"  start: {start_words(task.initial)}"
     yield f"  goal: {region_words(strategy.region(0).region)}"
+    if strategy.certain is not None:
+        nowhere = strategy.certain.is_empty
+        surely = "nowhere in the start" if nowhere else region_words(strategy.certain)
+        yield f"  surely reaches it from: {surely}"
     for region in strategy.failures:
         yield f"  out of reach of it: region {region.id}, {region_words(region.region)}"
 

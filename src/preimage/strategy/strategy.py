@@ -86,6 +86,9 @@ class Strategy(Shown):
     start : ids of the regions that may be chosen at the start.
     steps : for a linear plan, the regions in the order of execution, the goal left out.
     why : what stands in the way where there is no strategy, the most promising direction first.
+    certain : for a plan that may know its failure, the part of the start from which it surely ends
+        in the goal; None if nothing is known. Plan files do not hold it.
+    hope : False if such a plan is known to fail always; plan files do not hold it either.
     """
 
     task: Task
@@ -98,11 +101,24 @@ class Strategy(Shown):
     statistics: Statistics
     reason: str = ""  # which limit stopped the planner
     why: tuple[Reason, ...] = ()
+    certain: Region | None = None
+    hope: bool = True
 
     @property
     def failures(self) -> tuple[StrategyRegion, ...]:
         """The regions of known failure; none if all that is planned ends in the goal."""
         return tuple(region for region in self.regions if region.failure)
+
+    @property
+    def can_succeed(self) -> bool:
+        """Whether motions lead from its start to the goal at all; that they may is not said."""
+        todo, seen = list(self.start), set(self.start)
+        while todo:
+            motion = self.region(todo.pop()).motion
+            following = set(motion.goals) - seen if motion else set()
+            seen |= following
+            todo += following
+        return self.hope and 0 in seen
 
     def region(self, number: int) -> StrategyRegion:
         """The region with this id."""

@@ -51,8 +51,13 @@ def _headline(verification: Verification) -> str:
         return f"{verification.verdict.value}: {status[0].words}"
     match verification.verdict:
         case Verdict.PROVEN if verification.motions:
-            motions = count(len(verification.motions), "motion")
-            if verification.strategy.failures:
+            strategy = verification.strategy
+            if strategy.steps:
+                motions = count(len(strategy.steps), "motion")
+            else:
+                most = max(strategy.region(start).rank for start in strategy.start)
+                motions = f"at most {count(most, 'motion')}"
+            if strategy.failures:
                 known = "it ends in the goal, or where that is out of reach, and knows which"
             else:
                 known = "it ends in the goal and knows it"

@@ -46,6 +46,8 @@ WORDS: dict[Layer, str] = {
     Layer.PREIMAGE: r"preimage $\mathcal{P}$",
     Layer.TARGET: r"target $\mathcal{T}$",
     Layer.STICKING: "target that sticks",
+    Layer.CERTAIN: "start that surely succeeds",
+    Layer.LOST: "goal out of reach",
     Layer.RAY: "bounding ray",
     Layer.RUN: "way of a run",
     Layer.GIVEN_UP: "run that gives up",

@@ -164,7 +164,10 @@ def _motion_plate(
         for subgoal in goals:
             if subgoal.id != 0:
                 outline = without_contact(subgoal.region)
-                draw_region(panel, Layer.SUBGOAL, outline, number=subgoal.id)
+                layer = Layer.LOST if subgoal.failure else Layer.SUBGOAL
+                draw_region(panel, layer, outline, number=subgoal.id)
+        if starts_here and strategy.certain is not None and not strategy.certain.is_empty:
+            draw_region(panel, Layer.CERTAIN, strategy.certain)
         draw_region(panel, Layer.TARGET, motion.target)
         plain = motion.target.area
         draw_region(panel, Layer.PREIMAGE, region.region, number=region.id, plain=plain)

@@ -65,6 +65,8 @@ class Layer(Enum):
     PREIMAGE = "preimage"
     TARGET = "target"
     STICKING = "sticking"
+    CERTAIN = "certain"
+    LOST = "lost"
     RAY = "ray"
     DIRECTION = "direction"
     CONTROL_CONE = "control-cone"
@@ -144,6 +146,14 @@ REGIONS: dict[Layer, RegionStyle] = {
     Layer.STICKING: RegionStyle(
         color=ORANGE, tint=0.3, outline=1.0, contact=2.4, contact_dashes=(0.0, (1.4, 1.0)),
         marker="^", size=4.2, order=5.8, cost=2.0,
+    ),
+    Layer.CERTAIN: RegionStyle(
+        color=GREEN, tint=0.3, hatch="++", outline=0.9, contact=2.2, marker="h", size=5.0,
+        order=5.5,
+    ),
+    Layer.LOST: RegionStyle(
+        color=PURPLE, tint=0.14, hatch="oo", outline=0.8, dashes=(0.0, (1.0, 1.6)), contact=1.6,
+        contact_dashes=(0.0, (1.0, 1.6)), marker="v", size=4.2, order=4.8, cost=0.4,
     ),
 }  # fmt: skip
 """The layers that are regions. On a contact edge they lie beside each other, the goal innermost."""

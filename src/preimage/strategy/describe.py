@@ -10,6 +10,7 @@ from preimage.configuration.contact_set import intersection
 from preimage.configuration.location import inside_area
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
+from preimage.configuration.start import start_region
 from preimage.recognition.termination import (
     Condition,
     ElapsedCondition,
@@ -138,7 +139,7 @@ def _headline(strategy: Strategy) -> Iterator[str]:
     )
     yield f"  start: {start_words(task.initial)}"
     yield f"  goal: {region_words(strategy.region(0).region)}"
-    if strategy.certain is not None:
+    if strategy.certain is not None and start_region(task, strategy.space).point is None:
         nowhere = strategy.certain.is_empty
         surely = "nowhere in the start" if nowhere else region_words(strategy.certain)
         yield f"  surely reaches it from: {surely}"

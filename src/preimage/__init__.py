@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from preimage.recognition.kernel import kernel as kernel
     from preimage.rendering import animate as animate
     from preimage.rendering import draw as draw
+    from preimage.search.margins import margins as margins
     from preimage.search.planner import plan as plan
     from preimage.strategy.describe import describe as describe
     from preimage.strategy.plan_file import read_plan as read_plan
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from preimage.task.files import load_task as load_task
     from preimage.task.options import Method as Method
     from preimage.task.task import Task as Task
+    from preimage.task.template import Template as Template
+    from preimage.task.template import load_template as load_template
     from preimage.verification.verify import verify as verify
 
     __version__: str
@@ -43,6 +46,7 @@ _HOMES: dict[str, str] = {
     "Status": "preimage.strategy.strategy",
     "Strategy": "preimage.strategy.strategy",
     "Task": "preimage.task.task",
+    "Template": "preimage.task.template",
     "animate": "preimage.rendering",
     "backproject": "preimage.reachability.backprojection",
     "configuration_space": "preimage.configuration.obstacles",
@@ -50,6 +54,8 @@ _HOMES: dict[str, str] = {
     "draw": "preimage.rendering",
     "kernel": "preimage.recognition.kernel",
     "load_task": "preimage.task.files",
+    "load_template": "preimage.task.template",
+    "margins": "preimage.search.margins",
     "named_task": "preimage.task.examples",
     "named_tasks": "preimage.task.examples",
     "plan": "preimage.search.planner",

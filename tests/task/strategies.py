@@ -21,6 +21,7 @@ from preimage.task import (
     Method,
     PlannerOptions,
     PolygonObstacle,
+    Preference,
     Robot,
     SearchOrder,
     Side,
@@ -132,6 +133,7 @@ options = st.builds(
     arc_tolerance=st.floats(1e-6, 0.1),
     resolution=st.floats(1e-5, 0.7),
     or_fail=st.booleans(),
+    prefer=st.sampled_from(Preference),
 )
 robots = st.one_of(st.just(Robot()), st.builds(Robot, rings(0.2), points))
 names = st.one_of(

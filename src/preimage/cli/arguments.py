@@ -13,13 +13,15 @@ import click
 from click.shell_completion import CompletionItem
 
 from preimage.cli.output import STANDARD, RefusalError, about, reason
+from preimage.errors import shown
 from preimage.task.degrees import to_radians
 from preimage.task.documents import MAX_BYTES, Format, parse_document, read_document
-from preimage.task.examples import named_task, named_tasks
+from preimage.task.examples import named_tasks
 from preimage.task.limits import DIRECTION, MAX_NAME
-from preimage.task.options import Method, SearchOrder, StrategyKind, Termination
+from preimage.task.options import Method, Preference, SearchOrder, StrategyKind, Termination
 from preimage.task.parse import parse_task
 from preimage.task.task import Task
+from preimage.task.template import Template, named_template, parse_template
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -29,10 +31,14 @@ WORDS = {"right": 0.0, "up": 90.0, "left": 180.0, "down": 270.0}
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A task, and what refusals of it begin with: its file, or its name."""
+    """A task, and what refusals of it begin with: its file, or its name.
+
+    The template gives the task, for its given values.
+    """
 
     task: Task
     name: str
+    template: Template
 
 
 # --- the task -------------------------------------------------------------------------------
@@ -50,7 +56,10 @@ def complete_examples(
 
 
 def task_argument(function: Function) -> Function:
-    """The argument TASK and the option that stands for it."""
+    """The argument TASK, the option that stands for it, and the values of its parameters.
+
+    The values reach `load` by the context, so that commands need not hand them on.
+    """
     argument = click.argument("path", metavar="[TASK]", required=False, type=click.Path())
     option = click.option(
         "--example",
@@ -58,20 +67,68 @@ def task_argument(function: Function) -> Function:
         shell_complete=complete_examples,
         help="A named task instead of a file; `preimage examples` lists them.",
     )
-    return argument(option(function))
+    values = click.option(
+        "--set",
+        metavar="NAME=VALUE",
+        multiple=True,
+        expose_value=False,
+        callback=_keep_settings,
+        help="Another value for a parameter of the task; may be repeated.",
+    )
+    return argument(option(values(function)))
+
+
+_SETTINGS = f"{__name__}.settings"
+
+
+def _keep_settings(
+    context: click.Context, _parameter: click.Parameter, given: tuple[str, ...]
+) -> None:
+    """Note the values of parameters where `load` finds them."""
+    values: dict[str, float] = {}
+    for text in given:
+        name, equals, words = text.partition("=")
+        name = name.strip()
+        value = _number(words)
+        if not name or not equals or not isinstance(value, int | float):
+            raise RefusalError(f"--set: must be NAME=VALUE with a number, not {shown(text)}")
+        if name in values:
+            raise RefusalError(f"--set: {shown(name)} is given twice")
+        values[name] = value
+    context.meta[_SETTINGS] = values
 
 
 def load(path: str | None, example: str | None) -> Source:
-    """The task of a file, of standard input, or the named one."""
+    """The task of a file, of standard input, or the named one, with the values of `--set`."""
     if (path is None) == (example is None):
         raise RefusalError("give a TASK file, or a named task by --example NAME")
     if example is not None:
         with about(example, {"example": "--example"}):
-            return Source(named_task(example), example)
+            template = named_template(example)
+        return _given(template, example)
     assert path is not None
-    data, name = document(path)
+    return posed(*document(path), named=stem(path))
+
+
+def posed(data: object, name: str, *, named: str) -> Source:
+    """The task of a file's data; `named` is what it is called if the file does not say."""
     with about(name):
-        return Source(parse_task(data, name=stem(path)), name)
+        template = parse_template(data, name=named)
+    return _given(template, name)
+
+
+def settings() -> dict[str, float]:
+    """What `--set` says, by the names of parameters."""
+    context = click.get_current_context(silent=True)
+    found: dict[str, float] = context.meta.get(_SETTINGS, {}) if context else {}
+    return found
+
+
+def _given(template: Template, name: str) -> Source:
+    values = settings()
+    with about(name, {f"parameters.{word}": f"--set {word}" for word in values}):
+        template = template.given(**values)
+        return Source(template.task(), name, template)
 
 
 def document(path: str) -> tuple[object, str]:
@@ -208,10 +265,27 @@ def planner_options(function: Function) -> Function:
             help="Where no plan surely ends in the goal: one that ends there or knows that it has "
             "failed.",
         ),
+        click.option(
+            "--prefer",
+            type=click.Choice([member.value for member in Preference]),
+            help="Of the shortest plans: the first one, or that with the largest smallest margin.",
+        ),
     )
     for option in reversed(options):
         function = option(function)
     return function
+
+
+def planner_options_without(*names: str) -> Callable[[Function], Function]:
+    """The same, but for some that mean something else, or nothing, to a command."""
+
+    def decorate(function: Function) -> Function:
+        function = planner_options(function)
+        parameters: list[click.Parameter] = vars(function)["__click_params__"]
+        parameters[:] = [one for one in parameters if one.name not in names]
+        return function
+
+    return decorate
 
 
 PLANNER = {
@@ -226,6 +300,7 @@ PLANNER = {
         "strategy",
         "termination",
         "resolution",
+        "prefer",
     )
 }
 """Keys of a task that have an option of their own."""
@@ -245,7 +320,10 @@ def overridden(source: Source, given: dict[str, Any]) -> Source:
         # the rules are the file's own
         parsed = parse_task({**_SMALLEST, "planner": chosen}).options
     options = replace(source.task.options, **{word: getattr(parsed, word) for word in chosen})
-    return Source(replace(source.task, options=options), source.name)
+    document = source.template.document
+    planner = {**document.get("planner", {}), **chosen}
+    template = replace(source.template, document={**document, "planner": planner})
+    return Source(replace(source.task, options=options), source.name, template)
 
 
 _SMALLEST: dict[str, object] = {

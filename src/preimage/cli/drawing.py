@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import click
 
-from preimage.cli.arguments import document, load, stem, task_argument
+from preimage.cli.arguments import document, load, posed, settings, stem, task_argument
 from preimage.cli.command import Command
-from preimage.cli.output import STANDARD, about, check_outputs, picture, say
+from preimage.cli.output import RefusalError, about, check_outputs, picture, say
 
 
 @click.command(
@@ -49,11 +49,11 @@ def _subject(path: str | None, example: str | None) -> object:
     if path is None or example is not None:
         return load(path, example).task
     data, name = document(path)
+    if not isinstance(data, Mapping) or not ("regions" in data or "status" in data):
+        return posed(data, name, named=stem(path)).task
+    if settings():
+        raise RefusalError(f"{name}: is a plan, whose task has no parameters for --set")
+    from preimage.strategy.plan_parse import parse_plan
+
     with about(name):
-        if isinstance(data, Mapping) and ("regions" in data or "status" in data):
-            from preimage.strategy.plan_parse import parse_plan
-
-            return parse_plan(data)
-        from preimage.task.parse import parse_task
-
-        return parse_task(data, name="task" if path == STANDARD else stem(path))
+        return parse_plan(data)

@@ -12,6 +12,7 @@ from preimage.cli.output import STANDARD, about, check_outputs, say, write
 from preimage.task.documents import Format
 from preimage.task.examples import named_task, named_task_text, named_tasks, task_families
 from preimage.task.files import format_task
+from preimage.task.parameters import listed
 
 
 @click.command(
@@ -36,6 +37,8 @@ def check_command(path: str | None, example: str | None) -> int:
     with about(source.name):
         text = survey(source.task, configuration_space(source.task))
     say(text)
+    if source.template.parameters:
+        say(f"\nparameters: {listed(source.template.parameters)}")
     return 0
 
 

@@ -11,8 +11,10 @@ from typing import Any
 
 from preimage.geometry.geojson import MAX_COORDINATE
 from preimage.strategy.plan_parse import (
+    ANGLES,
     CONDITIONS,
     DISTANCE,
+    LENGTHS,
     MARGIN,
     MOTION,
     NUMBER,
@@ -28,7 +30,8 @@ from preimage.strategy.strategy import Status
 from preimage.task import limits
 from preimage.task.limits import Range
 from preimage.task.options import StrategyKind
-from preimage.task.schema import DIALECT, task_schema
+from preimage.task.parameters import INFINITY
+from preimage.task.schema import DIALECT, whole_schema
 
 Schema = dict[str, Any]
 
@@ -39,7 +42,7 @@ def plan_schema() -> Schema:
     >>> plan_schema()["required"]
     ['version', 'task', 'status', 'strategy', 'regions', 'start']
     """
-    task = {word: value for word, value in task_schema().items() if word != "$schema"}
+    task = {word: value for word, value in whole_schema().items() if word != "$schema"}
     definitions = {**task.pop("$defs"), "task": task, **_geometries()}
     definitions["region"] = _region()
     definitions["condition"] = {"oneOf": [_condition(kind) for kind in CONDITIONS]}
@@ -58,6 +61,7 @@ def plan_schema() -> Schema:
             ),
             "additionalProperties": False,
         },
+        "margins": _margins(),
     }
     return {
         "$schema": DIALECT,
@@ -92,6 +96,19 @@ def _region() -> Schema:
     failure = {**goal, "id": above["id"], "failure": {"const": True}}
     moving = _record(preimage, dict.fromkeys(OPTIONAL_OF_MOTION, margin))
     return {"oneOf": [_record(goal), moving, _record(failure)]}
+
+
+def _margins() -> Schema:
+    """How far each assumption may be off; what is missing is not known."""
+    length, angle = (
+        {"anyOf": [_number(DISTANCE), {"enum": list(INFINITY)}]},
+        {"anyOf": [_number(MARGIN), {"enum": list(INFINITY)}]},
+    )
+    kinds = {**dict.fromkeys(LENGTHS, length), **dict.fromkeys(ANGLES, angle)}
+    return {
+        **_record({}, kinds),
+        "description": "how far off the start, the sensors and all directions may be",
+    }
 
 
 def _condition(kind: str) -> Schema:

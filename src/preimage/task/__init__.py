@@ -16,6 +16,7 @@ from preimage.task.options import (
     Continuous,
     Method,
     PlannerOptions,
+    Preference,
     SearchOrder,
     StrategyKind,
     Termination,
@@ -25,6 +26,7 @@ from preimage.task.parse import parse_task
 from preimage.task.robot import Robot
 from preimage.task.schema import task_schema
 from preimage.task.task import SlidingLaw, Task
+from preimage.task.template import Template, load_template, named_template, parse_template
 from preimage.task.uncertainty import Uncertainty
 from preimage.task.workspace import (
     ChainObstacle,
@@ -49,6 +51,7 @@ __all__ = [
     "Method",
     "PlannerOptions",
     "PolygonObstacle",
+    "Preference",
     "Robot",
     "SearchOrder",
     "Side",
@@ -56,6 +59,7 @@ __all__ = [
     "SolidSide",
     "StrategyKind",
     "Task",
+    "Template",
     "Termination",
     "Uncertainty",
     "Window",
@@ -63,9 +67,12 @@ __all__ = [
     "dump_task",
     "format_task",
     "load_task",
+    "load_template",
     "named_task",
     "named_tasks",
+    "named_template",
     "parse_task",
+    "parse_template",
     "save_task",
     "task_families",
     "task_schema",

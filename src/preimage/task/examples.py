@@ -59,13 +59,23 @@ def named_task(name: str) -> Task:
     >>> named_task("comb-2").name
     'comb-2'
     """
+    return parse_task(named_data(name), name=name)
+
+
+def named_data(name: str) -> object:
+    """The plain data of a named task, or of a member of a family.
+
+    Raises
+    ------
+    TaskError : if there is no such task.
+    """
     member = _MEMBER.fullmatch(name)
     if member and member[1] in FAMILIES:
         size = int(member[2])
         if size > MAX_SIZE:
             raise TaskError("example", f"the size must be at most {MAX_SIZE}, not {size}")
-        return parse_task(FAMILIES[member[1]](size), name=name)
-    return parse_task(parse_document(named_task_text(name), Format.YAML, name), name=name)
+        return FAMILIES[member[1]](size)
+    return parse_document(named_task_text(name), Format.YAML, name)
 
 
 @cache

@@ -22,7 +22,8 @@ from preimage.task.initial import (
 from preimage.task.layout import format_document
 from preimage.task.limits import MAX_NAME
 from preimage.task.options import Continuous, PlannerOptions, uniform_directions
-from preimage.task.parse import NONE, VERSION, parse_task
+from preimage.task.parameters import NONE
+from preimage.task.parse import VERSION, parse_task
 from preimage.task.robot import Robot
 from preimage.task.task import Task
 from preimage.task.uncertainty import Uncertainty
@@ -40,9 +41,13 @@ def load_task(path: str | os.PathLike[str]) -> Task:
     ------
     TaskError : if the file cannot be read or the task is refused.
     """
+    return parse_task(read_document(path), name=name_of(path))
+
+
+def name_of(path: str | os.PathLike[str]) -> str:
+    """The name of a file's task, if it has none of its own."""
     stem = Path(path).stem[:MAX_NAME]
-    name = stem if stem.strip() and stem.isprintable() else "task"
-    return parse_task(read_document(path), name=name)
+    return stem if stem.strip() and stem.isprintable() else "task"
 
 
 def save_task(task: Task, path: str | os.PathLike[str]) -> None:
@@ -166,6 +171,7 @@ def _options(options: PlannerOptions) -> dict[str, object]:
         "arc_tolerance": _number(options.arc_tolerance),
         "resolution": _degrees(options.resolution),
         "or_fail": options.or_fail,
+        "prefer": options.prefer.value,
     }
     default = PlannerOptions()
     changed = {key for key in ours if getattr(options, key) != getattr(default, key)}

@@ -43,6 +43,13 @@ class SearchOrder(Enum):
     LED = "led"
 
 
+class Preference(Enum):
+    """Which of the plans with the fewest motions is chosen."""
+
+    SHORTEST = "shortest"  # the first one found
+    MARGIN = "margin"  # the one with the largest smallest margin
+
+
 @dataclass(frozen=True, slots=True)
 class Continuous:
     """All directions, none left out."""
@@ -116,6 +123,11 @@ class PlannerOptions:
         metadata={"unit": "", "reason": "who asks for a guarantee means it"},
     )
 
+    prefer: Preference = field(
+        default=Preference.SHORTEST,
+        metadata={"unit": "", "reason": "one plan is found sooner than all"},
+    )
+
     def __post_init__(self) -> None:
         """Refuse options that are out of range."""
         for name, kind in (
@@ -123,6 +135,7 @@ class PlannerOptions:
             ("strategy", StrategyKind),
             ("termination", Termination),
             ("search", SearchOrder),
+            ("prefer", Preference),
         ):
             member = checks.choice(getattr(self, name), f"planner.{name}", kind)
             object.__setattr__(self, name, member)

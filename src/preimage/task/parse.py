@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from preimage.errors import TaskError, one_line, shown
-from preimage.task import checks, limits
+from preimage.task import checks, limits, parameters
 from preimage.task.degrees import representable, to_radians
 from preimage.task.goal import Goal
 from preimage.task.initial import (
@@ -22,6 +22,7 @@ from preimage.task.initial import (
     InitialPolygon,
 )
 from preimage.task.options import Continuous, Directions, PlannerOptions, uniform_directions
+from preimage.task.parameters import CONTINUOUS, INFINITY, NONE
 from preimage.task.robot import Robot
 from preimage.task.task import SlidingLaw, Task
 from preimage.task.uncertainty import Uncertainty
@@ -63,9 +64,8 @@ PLANNER = (
     "arc_tolerance",
     "resolution",
     "or_fail",
+    "prefer",
 )
-INFINITY = ("inf", ".inf")
-NONE = "none"
 
 
 def parse_task(data: object, *, name: str = "task") -> Task:
@@ -73,7 +73,8 @@ def parse_task(data: object, *, name: str = "task") -> Task:
 
     Parameters
     ----------
-    data : mappings, lists, numbers and words, as a file has them; angles in degrees.
+    data : mappings, lists, numbers and words, as a file has them; angles in degrees. With
+        `parameters`, formulas of them too: they get the values that are given there.
     name : the task's name if the data has none.
 
     Raises
@@ -88,7 +89,33 @@ def parse_task(data: object, *, name: str = "task") -> Task:
     >>> task.workspace.window.xmax
     5.0
     """
-    top = fields(data, "", REQUIRED, OPTIONAL)
+    if isinstance(data, Mapping) and parameters.KEY in data:
+        return parse_with(*parameters.split(data), name=name)
+    return _task(data, name)
+
+
+def parse_with(
+    document: Mapping[str, Any], values: Mapping[str, float], *, name: str = "task"
+) -> Task:
+    """The task of a document whose parameters have these values.
+
+    Raises
+    ------
+    TaskError : with the formula too, where one gave the value.
+    """
+    if not values:
+        return _task(document, name)
+    data = parameters.evaluated(document, values)
+    try:
+        return _task(data, name)
+    except TaskError as error:
+        raise parameters.explained(error, document, values) from None
+
+
+def _task(data: object, name: str) -> Task:
+    top = fields(data, "", REQUIRED, (*OPTIONAL, parameters.KEY))
+    if parameters.KEY in top:
+        raise TaskError(parameters.KEY, "must be split from the document")
     if checks.number(top["version"], "version") != VERSION:
         raise TaskError("version", f"must be {VERSION}, not {shown(top['version'])}")
     robot = _robot(top.get("robot", "point"))
@@ -311,7 +338,7 @@ def _options(value: object) -> PlannerOptions:
 
 def _directions(value: object) -> Directions:
     key = "planner.directions"
-    if value == "continuous":
+    if value == CONTINUOUS:
         return Continuous()
     if isinstance(value, list | tuple):
         return tuple(

@@ -9,10 +9,19 @@ import math
 from enum import Enum
 from typing import Any
 
-from preimage.task import limits
+from preimage.task import formula, limits
 from preimage.task.limits import Range
-from preimage.task.options import Method, SearchOrder, StrategyKind, Termination
-from preimage.task.parse import GOAL, INFINITY, INITIAL, NONE, OPTIONAL, PLANNER, REQUIRED, VERSION
+from preimage.task.options import Method, Preference, SearchOrder, StrategyKind, Termination
+from preimage.task.parameters import (
+    INFINITY,
+    KEY,
+    MAX_NAME,
+    MAX_PARAMETERS,
+    NONE,
+    RESERVED,
+    WORDS,
+)
+from preimage.task.parse import GOAL, INITIAL, OPTIONAL, PLANNER, REQUIRED, VERSION
 from preimage.task.task import SlidingLaw
 from preimage.task.workspace import Side, SolidSide
 
@@ -24,7 +33,37 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 def task_schema() -> Schema:
     """The schema of task files, version 1, as a mapping.
 
-    >>> task_schema()["required"]
+    With `parameters`, a number may be a formula; without, the file is a whole task.
+
+    >>> task_schema()["if"]
+    {'required': ['parameters']}
+    """
+    task = whole_schema()
+    head = {word: task.pop(word) for word in ("$schema", "title", "description")}
+    points = task.pop("$defs")
+    template = _with_formulas(task)
+    template["properties"][KEY] = _PARAMETERS
+    template["required"] = [*REQUIRED, KEY]
+    return {
+        **head,
+        "type": "object",
+        "if": {"required": [KEY]},
+        "then": {"$ref": "#/$defs/template"},
+        "else": {"$ref": "#/$defs/task"},
+        "$defs": {
+            **points,
+            **{f"{word}{_OPEN}": _with_formulas(schema) for word, schema in points.items()},
+            "formula": _FORMULA,
+            "task": task,
+            "template": template,
+        },
+    }
+
+
+def whole_schema() -> Schema:
+    """The schema of a task without parameters, such as a plan file has.
+
+    >>> whole_schema()["required"]
     ['version', 'uncertainty', 'initial', 'goal']
     """
     top: Schema = {
@@ -72,6 +111,19 @@ def task_schema() -> Schema:
     }
 
 
+def _with_formulas(schema: Any) -> Any:
+    """The schema with a formula allowed wherever a number is."""
+    if isinstance(schema, list):
+        return [_with_formulas(item) for item in schema]
+    if not isinstance(schema, dict):
+        return schema
+    if schema.get("type") in ("number", "integer"):
+        return {"anyOf": [schema, {"$ref": "#/$defs/formula"}]}
+    if "$ref" in schema:
+        return {"$ref": f"{schema['$ref']}{_OPEN}"}
+    return {word: _with_formulas(item) for word, item in schema.items()}
+
+
 def _number(within: Range, kind: str = "number") -> Schema:
     schema: Schema = {"type": kind}
     if math.isfinite(within.low):
@@ -108,6 +160,26 @@ def _one_of(properties: Schema) -> Schema:
     return {**_optional(properties), "minProperties": 1, "maxProperties": 1}
 
 
+_OPEN = "-with-formulas"
+_FORMULA: Schema = {
+    "type": "string",
+    "maxLength": formula.MAX_LENGTH,
+    # By its characters only, and no word that stands for itself: nesting is beyond a pattern.
+    "pattern": rf"^(?!\.?({'|'.join(word for word in WORDS if word.isalpha())})$)"
+    r"[A-Za-z0-9_.+\-*/(), \t]+$",
+    "description": "arithmetic over the names of `parameters`; see docs/parameters.md",
+}
+_PARAMETERS: Schema = {
+    "type": "object",
+    "propertyNames": {
+        "pattern": f"^{formula.NAME}$",
+        "maxLength": MAX_NAME,
+        "not": {"enum": sorted(RESERVED)},
+    },
+    "additionalProperties": {"type": "number"},
+    "maxProperties": MAX_PARAMETERS,
+    "description": "named numbers, each used by a formula",
+}
 _POINT: Schema = {"$ref": "#/$defs/point"}
 _RING = _list(_POINT, 3)
 _EDGE = _list(_POINT, 2, 2)
@@ -173,6 +245,7 @@ _PLANNER: Schema = dict(
             {**_number(limits.ARC_TOLERANCE), "default": 0.005},
             {**_number(limits.DIRECTION_RESOLUTION), "default": 0.1},
             {"type": "boolean", "default": False},
+            {**_choice(Preference), "default": "shortest"},
         ),
         strict=True,
     )

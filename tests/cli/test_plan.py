@@ -146,3 +146,37 @@ def test_a_defect_is_neither_solved_nor_unsolved(
     monkeypatch.setattr(planner, "plan", fail)
     assert run(["plan", "--example", "flat-floor"]) == 70
     assert capsys.readouterr().err.endswith("preimage: this is a defect of the program\n")
+
+
+def test_margins_are_told_and_written(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "plan.json"
+    assert run(["plan", "--example", "peg-in-hole", "-o", str(file)]) == 0
+    (line,) = (one for one in capsys.readouterr().out.splitlines() if one.startswith("margins"))
+    margins = read_plan(file).margins
+    assert margins is not None
+    assert line == f"margins: {margins.words}"
+    assert margins.reading is not None
+    assert margins.reading > 0.0
+
+
+def test_margins_may_be_left_out(
+    tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "plan.json"
+    arguments = ["plan", "--example", "flat-floor", "-o", str(file)]
+    assert run([*arguments, "--no-margins"]) == 0
+    assert "margins:" not in capsys.readouterr().out
+    assert "margins" not in json.loads(file.read_text())
+    monkeypatch.setattr("preimage.cli.planning.MOST", 0)
+    assert run(arguments) == 0
+    assert "margins: left out, since in a scene as large as this" in capsys.readouterr().out
+    assert "margins" not in json.loads(file.read_text())
+
+
+def test_the_plan_with_the_largest_smallest_margin(capsys: Capture) -> None:
+    arguments = ["plan", "--example", "connector"]
+    assert run([*arguments, "--prefer", "margin"]) == 0
+    assert "8 were compared by their smallest margin" in capsys.readouterr().out
+    assert run([*arguments, "--prefer", "margin", "--search", "best-first"]) == 2
+    assert capsys.readouterr().err.startswith("preimage: connector: planner.prefer: margin needs")
+    assert run([*arguments, "--prefer", "room"]) == 2

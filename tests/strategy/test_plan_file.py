@@ -3,10 +3,13 @@ import json
 import os
 import stat
 from pathlib import Path
+from typing import Any
 
+import jsonschema
 import pytest
 
 from preimage.configuration.region import is_subset
+from preimage.errors import PlanFileError
 from preimage.recognition.termination import (
     ElapsedCondition,
     ReadingCondition,
@@ -14,6 +17,7 @@ from preimage.recognition.termination import (
 )
 from preimage.search.planner import plan
 from preimage.strategy.plan_file import format_plan, plan_to_dict, read_plan, write_plan
+from preimage.strategy.plan_schema import plan_schema
 from preimage.strategy.strategy import Statistics, Status
 from preimage.task.examples import named_task, named_tasks
 from preimage.task.options import Method, StrategyKind
@@ -142,3 +146,31 @@ def test_without_a_strategy_what_was_found_is_kept(status: Status) -> None:
     assert strategy.status is status
     assert len(strategy.regions) == 3
     assert json.loads(format_plan(strategy)) == data
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {},
+        {"start": 0.5, "reading": "inf", "force": 12.5, "direction": 3.1},
+        {"start": 0, "direction": "inf"},
+        {"reading": 0.1, "direction": 180},
+    ],
+)
+def test_margins_that_others_wrote(given: dict[str, Any]) -> None:
+    data = plan_data()
+    data["margins"] = given
+    strategy = read_plan(data)
+    jsonschema.Draft202012Validator(plan_schema()).validate(data)
+    kept = plan_to_dict(strategy)
+    assert list(kept)[-1] == "margins"
+    assert kept["margins"] == given
+    again = format_plan(strategy)
+    assert format_plan(read_plan(json.loads(again))) == again
+
+
+def test_margins_of_a_plan_that_is_none_are_refused() -> None:
+    data = plan_data()
+    data |= {"status": "stopped", "margins": {"start": 1}}
+    with pytest.raises(PlanFileError, match="margins: must not be given"):
+        read_plan(data)

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from preimage.cli.arguments import load, overridden, planner_options, task_argument
 from preimage.cli.command import Command
 from preimage.cli.output import STANDARD, about, check_outputs, note, picture, say, write
 from preimage.cli.progress import Interruption, ProgressLine
+
+if TYPE_CHECKING:
+    from preimage.strategy.strategy import Strategy
+
+MOST = 20_000
+"""Edges of contact space times motions: with more, margins are left out."""
 
 
 @click.command(
@@ -22,11 +30,15 @@ from preimage.cli.progress import Interruption, ProgressLine
 )
 @task_argument
 @planner_options
+@click.option(
+    "--no-margins", is_flag=True, help="Leave out how far starts, sensors and drives may be off."
+)
 @click.option("-o", "--output", metavar="FILE", help="The plan file (JSON); - for standard output.")
 @click.option("--figure", metavar="FILE", help="A picture: .svg, .png or .pdf.")
 def plan_command(
     path: str | None,
     example: str | None,
+    no_margins: bool,
     output: str | None,
     figure: str | None,
     **options: object,
@@ -36,6 +48,9 @@ def plan_command(
     TASK is a file in YAML, JSON or TOML, or - for YAML on standard input. Options override the
     keys of `planner` in it. Interrupted (Ctrl-C) or out of time, what was found so far is written
     as `stopped`.
+
+    Of a plan that is found its margins are told: how much further off the start, the sensors and
+    all directions may be.
 
     Exit status: 0 solved, 1 not solved, 2 bad input.
     """
@@ -51,10 +66,15 @@ def plan_command(
 
             with about(source.name):
                 strategy = plan(source.task, progress=line.show, cancelled=interrupted)
+            if not no_margins:
+                line.say("margins")
+                strategy = _measured(strategy, interrupted)
             if output is not None:
                 write(output, format_plan(strategy))
         line.clear()
         tell(describe(strategy))
+        if not no_margins and _takes_long(strategy):
+            tell("margins: left out, since in a scene as large as this they take long")
         if figure is not None:
             line.say("drawing")
             picture(strategy, figure)
@@ -62,3 +82,21 @@ def plan_command(
     if written:
         tell(f"written: {', '.join(map(str, written))}")
     return 0 if strategy.status is Status.SOLVED else 1
+
+
+def _measured(strategy: Strategy, interrupted: Interruption) -> Strategy:
+    """The strategy with its margins, unless it has them or they would take long."""
+    from preimage.search.limits import Limits
+    from preimage.search.margins import margins
+
+    if strategy.margins is not None or _takes_long(strategy):
+        return strategy
+    options = strategy.task.options
+    return margins(strategy, Limits(options.time_limit, options.max_regions, interrupted))
+
+
+def _takes_long(strategy: Strategy) -> bool:
+    """Whether the margins of a plan would take long: some forty times its preimages."""
+    motions = sum(region.motion is not None for region in strategy.regions)
+    large = len(strategy.space.contact.edges) * motions > MOST
+    return bool(strategy.start) and strategy.margins is None and large

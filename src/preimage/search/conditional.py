@@ -20,7 +20,7 @@ from preimage.preimages.start_search import stateful_preimage
 from preimage.preimages.starts import start_as_region
 from preimage.search.aims import Aim, Field
 from preimage.search.branching import Branching
-from preimage.search.limits import Limits, Progress
+from preimage.search.limits import Limits, Progress, too_long
 from preimage.task.options import Method, Termination
 
 PROBES = 64
@@ -138,7 +138,7 @@ def layers(
             return found
         fresh = sorted(added, key=lambda one: -one.region.area.measure)
         known += fresh
-    found.stopped = f"the limit of {max_steps} motions came first"
+    found.stopped = too_long(max_steps)
     return found
 
 

@@ -13,7 +13,7 @@ from preimage.preimages.methods import aim, reach
 from preimage.preimages.preimage import Preimage
 from preimage.preimages.setting import Setting
 from preimage.search.bounds import Bounds, Sensing
-from preimage.search.limits import Limits, Progress
+from preimage.search.limits import Limits, Progress, too_long
 from preimage.search.linear import Node, Outcome, digest_of
 from preimage.task.options import Method
 
@@ -58,7 +58,7 @@ def search(
     bounds = Bounds(setting, goal, directions, method, sensing, limits)
     graph = _Graph(setting, start, directions, method, limits, progress, outcome)
     fewest = bounds.fewest(start, max_steps)
-    enough = f"the limit of {max_steps} motions came first"
+    enough = too_long(max_steps)
     if fewest is None:
         outcome.stopped = bounds.stopped or (None if bounds.settled else enough)
     else:

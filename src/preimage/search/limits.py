@@ -55,3 +55,8 @@ class Limits:
         if regions >= self.max_regions:
             return f"the limit of {self.max_regions} regions came first"
         return None
+
+
+def too_long(max_steps: int) -> str:
+    """That a plan, if there is one, has more motions than are allowed, in words."""
+    return f"the limit of {max_steps} motions came first"

@@ -16,7 +16,7 @@ from preimage.preimages.preimage import Preimage, Target
 from preimage.preimages.setting import Setting
 from preimage.preimages.start_search import stateful_preimage
 from preimage.preimages.starts import start_as_region
-from preimage.search.limits import Limits, Progress
+from preimage.search.limits import Limits, Progress, too_long
 from preimage.task.options import Method, SearchOrder, Termination
 
 
@@ -136,7 +136,7 @@ def search(
                 best = "" if math.isinf(nearest) else f"{nearest:.4g} from the start"
                 progress(Progress(len(outcome.nodes), node.rank + 1, best, limits.seconds))
     if cut:
-        outcome.stopped = f"the limit of {max_steps} motions came first"
+        outcome.stopped = too_long(max_steps)
     return outcome
 
 

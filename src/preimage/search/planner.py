@@ -18,12 +18,15 @@ from preimage.search.failure import hopeless
 from preimage.search.hoping import judged, promise
 from preimage.search.limits import Limits, Progress
 from preimage.search.linear import Node, Outcome, search
+from preimage.search.margins import margins
 from preimage.search.policy import found_so_far, policy
+from preimage.search.preferring import compared_words, roomiest, roomiest_policy
 from preimage.search.reasons import reasons
 from preimage.strategy.strategy import Motion, Statistics, Status, Strategy, StrategyRegion
 from preimage.task.options import (
     Continuous,
     PlannerOptions,
+    Preference,
     SearchOrder,
     StrategyKind,
     Termination,
@@ -42,6 +45,7 @@ def plan(
     *,
     progress: Callable[[Progress], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
+    reasoned: bool = True,
 ) -> Strategy:
     """Find a strategy that surely ends in the goal, and knows that it did.
 
@@ -52,6 +56,8 @@ def plan(
     ----------
     progress : called after every preimage.
     cancelled : asked before every preimage; once it says True, what was found so far is returned.
+    reasoned : whether to look for what stands in the way where there is no strategy; that can take
+        longer than the search.
 
     Raises
     ------
@@ -70,11 +76,14 @@ def plan(
     goal = goal_region(task, setting.space)
     start = start_region(task, setting.space)
     if options.strategy is StrategyKind.CONDITIONAL:
-        strategy = _conditional(task, setting, [goal], start, limits, progress)[0]
+        plans = _conditional(task, setting, [goal], start, limits, progress)
+        strategy = _preferred(plans, options, limits)
     else:
         strategy = _linear(task, setting, goal, start, limits, progress)
     if strategy.status is not Status.SOLVED and not limits.exceeded(0):
-        strategy = _second_best(task, setting, goal, start, limits, progress, strategy)
+        strategy = _second_best(task, setting, goal, start, limits, progress, strategy, reasoned)
+    if options.prefer is Preference.MARGIN and strategy.margins is None:
+        strategy = margins(strategy, limits)
     logger.info("%d regions in %.3f s", strategy.statistics.regions, limits.seconds)
     return strategy
 
@@ -92,6 +101,21 @@ def _refuse_unknown(options: PlannerOptions) -> None:
     if options.search is SearchOrder.LED and with_state and not conditional:
         rule = "led searches know instantaneous conditions alone"
         raise UnsupportedError("planner.search", rule)
+    if options.prefer is Preference.MARGIN and not conditional:
+        _refuse_to_compare(options)
+
+
+def _refuse_to_compare(options: PlannerOptions) -> None:
+    """Refuse to compare linear plans by their margins where not all shortest ones are known."""
+    rule = ""
+    if isinstance(options.directions, Continuous):
+        rule = "needs a list of directions: plans with continuous ones have the widest already"
+    elif options.termination is not Termination.INSTANTANEOUS:
+        rule = "needs instantaneous conditions, or a conditional strategy"
+    elif options.search is SearchOrder.BEST_FIRST:
+        rule = "needs a search that finds the fewest motions: breadth-first or led"
+    if rule:
+        raise UnsupportedError("planner.prefer", f"margin {rule}")
 
 
 def _linear(
@@ -121,7 +145,19 @@ def _linear(
             progress,
             options.termination,
         )
-    return _strategy(task, setting, outcome, limits.seconds)
+    if options.prefer is Preference.SHORTEST or not outcome.solution or outcome.solution.rank == 0:
+        return _strategy(task, setting, outcome, limits.seconds)
+    best = roomiest(setting, start, task, outcome.solution, limits, progress)
+    outcome.solution, outcome.stopped = best.solution, best.words
+    outcome.computed += best.made
+    return replace(_strategy(task, setting, outcome, limits.seconds), margins=best.margins)
+
+
+def _preferred(plans: list[Strategy], options: PlannerOptions, limits: Limits) -> Strategy:
+    """Of equally short plans the first one, or that with the largest margin."""
+    if options.prefer is Preference.SHORTEST or plans[0].status is not Status.SOLVED:
+        return plans[0]
+    return replace(roomiest_policy(plans, limits), reason=compared_words(len(plans)))
 
 
 def _conditional(
@@ -158,6 +194,7 @@ def _second_best(
     limits: Limits,
     progress: Callable[[Progress], None] | None,
     strategy: Strategy,
+    reasoned: bool,
 ) -> Strategy:
     """Where there is no plan: one that may know its failure, if that is asked for, or why."""
     options = task.options
@@ -168,7 +205,7 @@ def _second_best(
             plans = _conditional(task, setting, [goal, lost], start, limits, progress)
             if plans[0].status is Status.SOLVED:
                 return max((judged(plan) for plan in plans), key=promise)
-    if options.termination is not Termination.INSTANTANEOUS:
+    if options.termination is not Termination.INSTANTANEOUS or not reasoned:
         return strategy
     chosen = uniform_directions(16) if isinstance(directions, Continuous) else directions
     why = reasons(setting, start, strategy.regions, chosen, options.method, options.strategy)

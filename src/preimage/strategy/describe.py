@@ -226,6 +226,10 @@ def _size(region: StrategyRegion) -> tuple[float, float, int]:
 def _totals(strategy: Strategy) -> Iterator[str]:
     statistics = strategy.statistics
     yield ""
+    if strategy.margins is not None:
+        yield f"margins: {strategy.margins.words}"
+    if strategy.status is Status.SOLVED and strategy.reason:
+        yield f"of the plans that are as short, {strategy.reason}"
     yield f"{count(statistics.regions, 'region')} made in {statistics.seconds:.3g} s"
 
 

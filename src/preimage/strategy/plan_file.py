@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Mapping
 from typing import Any
@@ -15,6 +16,7 @@ from preimage.recognition.termination import (
     ReadingCondition,
     StickingCondition,
 )
+from preimage.strategy.margins import Margins
 from preimage.strategy.plan_parse import VERSION, parse_plan
 from preimage.strategy.region_geojson import region_to_geojson
 from preimage.strategy.strategy import Strategy, StrategyRegion
@@ -28,7 +30,7 @@ Data = dict[str, Any]
 
 def plan_to_dict(strategy: Strategy) -> Data:
     """The data of a plan file, with its keys in order: plain numbers, words, lists and mappings."""
-    return {
+    data: Data = {
         "version": VERSION,
         "task": dump_task(strategy.task),
         "status": strategy.status.value,
@@ -41,6 +43,9 @@ def plan_to_dict(strategy: Strategy) -> Data:
             "seconds": round(float(strategy.statistics.seconds), 6),
         },
     }
+    if strategy.margins is not None:
+        data["margins"] = _margins(strategy.margins)
+    return data
 
 
 def format_plan(strategy: Strategy) -> str:
@@ -103,6 +108,28 @@ def _region(region: StrategyRegion, space: ConfigurationSpace) -> Data:
         data["target"] = region_to_geojson(motion.target, space)
         data["termination"] = [condition_to_dict(one, space) for one in motion.termination]
     return data
+
+
+def _margins(margins: Margins) -> Data:
+    """What is known of them; infinity is the word `inf`, so that JSON can hold it."""
+    known = {
+        "start": margins.start,
+        "reading": margins.reading,
+        "force": _to_degrees(margins.force),
+        "direction": _to_degrees(margins.direction),
+    }
+    return {
+        word: "inf" if math.isinf(value) else float(value)
+        for word, value in known.items()
+        if value is not None
+    }
+
+
+def _to_degrees(radians: float | None) -> float | None:
+    """An angle in degrees; infinity stays."""
+    if radians is None or math.isinf(radians):
+        return radians
+    return to_degrees(representable(radians))
 
 
 def condition_to_dict(condition: Condition, space: ConfigurationSpace) -> Data:

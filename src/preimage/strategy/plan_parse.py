@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any
@@ -15,22 +16,26 @@ from preimage.recognition.termination import (
     ReadingCondition,
     StickingCondition,
 )
+from preimage.strategy.margins import Margins
 from preimage.strategy.region_geojson import region_from_geojson
 from preimage.strategy.strategy import Motion, Statistics, Status, Strategy, StrategyRegion
 from preimage.task import checks, limits
 from preimage.task.degrees import to_radians
 from preimage.task.limits import Range
 from preimage.task.options import StrategyKind
+from preimage.task.parameters import INFINITY
 from preimage.task.parse import fields, parse_task
 
 VERSION = 1
 """Of the plan file."""
 
 REQUIRED = ("version", "task", "status", "strategy", "regions", "start")
-OPTIONAL = ("steps", "statistics")
+OPTIONAL = ("steps", "statistics", "margins")
 MOTION = ("direction", "goals", "target", "termination")
 OPTIONAL_OF_MOTION = ("margin",)
 STATISTICS = ("regions", "seconds")
+LENGTHS = ("start", "reading")
+ANGLES = ("force", "direction")
 CONDITIONS: dict[str, tuple[str, ...]] = {
     "sticking": ("period", "distance"),
     "reading": ("domain",),
@@ -80,9 +85,12 @@ def _strategy(top: Mapping[str, Any]) -> Strategy:
         start=_numbers(top["start"], "start"),
         steps=_numbers(top.get("steps", ()), "steps"),
         statistics=_statistics(top.get("statistics", {}), len(regions)),
+        margins=_margins(top["margins"]) if "margins" in top else None,
     )
     _check_graph(strategy)
     _check_route(strategy)
+    if strategy.margins is not None and strategy.status is not Status.SOLVED:
+        raise InputError("margins", "must not be given, since the status is not solved")
     return strategy
 
 
@@ -184,6 +192,20 @@ def _statistics(value: object, regions: int) -> Statistics:
         regions=checks.integer(data.get("regions", regions), "statistics.regions", NUMBER),
         seconds=checks.number(data.get("seconds", 0.0), "statistics.seconds", SECONDS),
     )
+
+
+def _margins(value: object) -> Margins:
+    data = fields(value, "margins", (), (*LENGTHS, *ANGLES))
+    known: dict[str, float | None] = dict.fromkeys((*LENGTHS, *ANGLES))
+    for word, margin in data.items():
+        if isinstance(margin, str) and margin in INFINITY:
+            known[word] = math.inf
+        elif word in LENGTHS:
+            known[word] = checks.extended(margin, f"margins.{word}", DISTANCE)
+        else:
+            degrees = checks.extended(margin, f"margins.{word}", MARGIN)
+            known[word] = to_radians(degrees) if math.isfinite(degrees) else degrees
+    return Margins(**known)
 
 
 # --- what must go together ------------------------------------------------------------------

@@ -9,6 +9,7 @@ from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.display import Shown
 from preimage.recognition.termination import Condition
+from preimage.strategy.margins import Margins
 from preimage.strategy.reason import Reason
 from preimage.task.options import StrategyKind
 from preimage.task.task import Task
@@ -89,6 +90,7 @@ class Strategy(Shown):
     certain : for a plan that may know its failure, the part of the start from which it surely ends
         in the goal; None if nothing is known. Plan files do not hold it.
     hope : False if such a plan is known to fail always; plan files do not hold it either.
+    margins : how much slack a solved plan has; None if it was not asked for.
     """
 
     task: Task
@@ -99,10 +101,11 @@ class Strategy(Shown):
     start: tuple[int, ...]
     steps: tuple[int, ...]
     statistics: Statistics
-    reason: str = ""  # which limit stopped the planner
+    reason: str = ""  # which limit stopped the planner, or the comparison of plans
     why: tuple[Reason, ...] = ()
     certain: Region | None = None
     hope: bool = True
+    margins: Margins | None = None
 
     @property
     def failures(self) -> tuple[StrategyRegion, ...]:

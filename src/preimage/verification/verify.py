@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from preimage.configuration import contact_set
+from preimage.configuration.depth import depth_of_start, depth_within
 from preimage.configuration.goals import goal_region
 from preimage.configuration.region import Region
 from preimage.configuration.start import Start, StartKind, covered, start_region
@@ -22,7 +23,6 @@ from preimage.geometry.area import Area
 from preimage.recognition.termination import StickingCondition
 from preimage.strategy.strategy import Status, Strategy, StrategyRegion
 from preimage.verification.faults import faults
-from preimage.verification.margins import margin_within, of_start
 from preimage.verification.out_of_reach import out_of_reach
 from preimage.verification.proof import MARGIN, Case, case_of, least_progress
 from preimage.verification.recognised import blurred
@@ -171,7 +171,7 @@ def _start(strategy: Strategy) -> list[Finding]:
     chosen = [strategy.region(number).region for number in strategy.start]
     inside = [region for region in chosen if covered(start, region, space)]
     near = MARGIN * space.tolerance.length
-    if any(of_start(start, region, space) > near for region in inside):
+    if any(depth_of_start(start, region, space) > near for region in inside):
         return []
     if inside:
         words = "the start is as near to the border of its region as rounding"
@@ -223,12 +223,12 @@ def _margins(strategy: Strategy, region: StrategyRegion, cases: dict[int, Case])
     entry = math.inf
     if region.id in strategy.start and strategy.status is Status.SOLVED:
         start = start_region(strategy.task, space)
-        entry = min(entry, of_start(start, region.region, space))
+        entry = min(entry, depth_of_start(start, region.region, space))
     for other in cases.values():
         if region.id in other.motion.goals:
             goals = [strategy.region(goal).region for goal in other.motion.goals]
             if len(goals) == 1:
-                entry = min(entry, margin_within(other.stop, region.region, space))
+                entry = min(entry, depth_within(other.stop, region.region, space))
     progress = math.inf
     speed, _ = least_progress(case)
     for condition in case.motion.termination:

@@ -9,41 +9,43 @@ import numpy as np
 from preimage.configuration.region import Region
 from preimage.configuration.space import ConfigurationSpace
 from preimage.configuration.start import Start, StartKind
-from preimage.geometry.area import Area
-from preimage.verification.distances import Floats, apart
+from preimage.geometry.area import Area, Floats
+from preimage.geometry.nearness import gap
 
 SHARED = 16.0
 """A border so many tolerances from that of free space is free space's own."""
 
 
-def margin_within(part: Region, whole: Region, space: ConfigurationSpace) -> float:
+def depth_within(part: Region, whole: Region, space: ConfigurationSpace) -> float:
     """How far a region is from the border of another one that holds it, within its features.
 
     Where a feature itself ends, nothing can fail: the ends of edges and the border of free space
-    do not count, and vertices belong or do not. Infinite if nothing else counts.
+    do not count, and vertices belong or do not. In the unit of length; infinite if nothing else
+    counts, and 0 where an interval of an edge lies in none of the other region's.
     """
     best = math.inf
     own = part.contact
     for edge, low, high in zip(own.edge.tolist(), own.low.tolist(), own.high.tolist(), strict=True):
         best = min(best, _along(edge, low, high, whole, space))
     if not part.area.is_empty:
-        rim = inner_border(whole.area, space)
-        if len(rim[0]):
-            best = min(best, float(np.min(apart(part.area.segments, rim))))
+        best = min(best, gap(part.area.segments, inner_border(whole.area, space)))
     return best
 
 
-def of_start(start: Start, region: Region, space: ConfigurationSpace) -> float:
-    """The same for the start of a plan."""
+def depth_of_start(start: Start, region: Region, space: ConfigurationSpace) -> float:
+    """The same for the start of a plan, which the region must hold.
+
+    A start in free space, moved within free space by less, is in the region still; one on an edge,
+    moved along it by less.
+    """
     if start.kind is StartKind.REGION:
-        return margin_within(start.region, region, space)
+        return depth_within(start.region, region, space)
     if start.kind is StartKind.EDGE_POINT:
         return _along(start.edge, start.distance, start.distance, region, space)
     if start.kind is StartKind.VERTEX or start.point is None:
         return math.inf
-    rim = inner_border(region.area, space)
     point = np.array([start.point])
-    return float(np.min(apart((point, point), rim))) if len(rim[0]) else math.inf
+    return gap((point, point), inner_border(region.area, space))
 
 
 def inner_border(area: Area, space: ConfigurationSpace) -> tuple[Floats, Floats]:

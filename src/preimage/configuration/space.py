@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from preimage.configuration import contact_set
 from preimage.configuration.contact import ContactSpace
 from preimage.configuration.region import Region
 from preimage.display import Shown
 from preimage.geometry.area import Area
+from preimage.geometry.porous import Porous
 from preimage.geometry.tolerance import Tolerance
 
 
@@ -29,6 +31,11 @@ class ConfigurationSpace(Shown):
     free: Area
     obstacles: Area
     contact: ContactSpace
+
+    @cached_property
+    def porous(self) -> Porous:
+        """Free space with its holes in a search tree, for work that is local."""
+        return Porous(self.free)
 
     @property
     def valid(self) -> Region:

@@ -42,7 +42,7 @@ def united_shapes(shapes: Shapes, grid: float) -> shapely.Geometry:
     polygons = _parts(shapes)
     if not len(polygons):
         return shapely.Polygon()
-    group = _groups(polygons, ALONE * grid)
+    group = groups(polygons, ALONE * grid)
     order = np.argsort(group, kind="stable")
     first = np.flatnonzero(np.diff(group[order], prepend=-1))
     crowds = np.split(polygons[order], first[1:])
@@ -119,7 +119,7 @@ def _alone(polygons: Shapes, apart: float) -> Bools:
     return alone
 
 
-def _groups(polygons: Shapes, apart: float) -> NDArray[np.intp]:
+def groups(polygons: Shapes, apart: float) -> NDArray[np.intp]:
     """(n,) the first of the polygons that hang together with each, over gaps up to `apart`."""
     one, other = shapely.STRtree(polygons).query(polygons, predicate="dwithin", distance=apart)
     group = np.arange(len(polygons))

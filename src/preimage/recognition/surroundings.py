@@ -18,9 +18,9 @@ from preimage.geometry.border import border
 from preimage.geometry.inflate import Wedges
 from preimage.recognition.outside import (
     Domain,
-    area_outside,
+    area_beside,
     border_segments,
-    contact_outside,
+    contact_beside,
     contact_segments,
 )
 from preimage.recognition.segments import (
@@ -82,9 +82,10 @@ def surroundings(
     One target is looked at with many commands: the answer is kept for the same objects.
     """
     contact, margin = space.contact, space.tolerance.length
-    rest = contact_segments(contact, contact_outside(space, target, domain))
-    box = _box(space, target, domain, 2.0 * radius)
-    free = Area.empty() if box is None else area_outside(space, target, domain, box)
+    reach = 2.0 * radius
+    rest = contact_segments(contact, contact_beside(space, target, domain, reach))
+    box = _box(space, target, domain, reach)
+    free = Area.empty() if box is None else area_beside(space, target, domain, box, reach)
     points, following = border(free)
     rim = border_segments(contact, points, following)
     near = meetings(space, target.contact, together(rest, rim), radius)
@@ -96,7 +97,7 @@ def surroundings(
         bounds = target.area.bounds
         chosen = rim.is_near(bounds, radius)
         sides, wedges = inflate.rectangle_pieces(points, following, radius, chosen, margin)
-        straight = inflate.shrunk_by(target.area, sides)
+        straight = inflate.without_slivers(inflate.shrunk_by(target.area, sides), margin)
         wedges = wedges.near(straight, radius)
         hidden = rest.near(bounds, radius)
         if domain is None:

@@ -12,6 +12,7 @@ from benchmarks.executor import executors
 from benchmarks.forward import forward_growth
 from benchmarks.layers import fixpoints
 from benchmarks.planning import processes, small_scenes, whole_plans
+from benchmarks.threads import threads
 from benchmarks.timing import table
 
 BENCHMARKS = {
@@ -24,6 +25,7 @@ BENCHMARKS = {
     "Processes": processes,
     "Motions": motions,
     "Readings": executors,
+    "Threads": threads,
 }
 
 PAGE = """# Benchmarks

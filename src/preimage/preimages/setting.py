@@ -51,9 +51,10 @@ class Setting:
 
     def command(self, direction: float) -> Command:
         """The command along `direction`, radians; always the same object for the same number."""
-        if direction not in self._commands:
-            self._commands[direction] = Command(self, direction)
-        return self._commands[direction]
+        found = self._commands.get(direction)
+        if found is None:  # of threads that come at once, all get the first one's
+            found = self._commands.setdefault(direction, Command(self, direction))
+        return found
 
 
 @dataclass(frozen=True, eq=False)

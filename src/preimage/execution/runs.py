@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import signal
+import contextlib
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
@@ -16,13 +14,13 @@ import numpy as np
 
 from preimage.configuration.region import Region
 from preimage.configuration.start import Start, start_region
-from preimage.errors import PreimageError
 from preimage.execution.chunk import NO_MARKS, OUTCOMES, Chunk, Scene, carry_out_plan
 from preimage.execution.control import CONTROLS, Control
 from preimage.execution.report import Report, Tally
 from preimage.execution.sensing import SENSINGS, Sensing
 from preimage.execution.starts import of_start
 from preimage.execution.trace import Trace
+from preimage.jobs import Workforce, workforce
 from preimage.strategy.strategy import Strategy
 
 CHUNK = 2_000
@@ -67,6 +65,7 @@ def run(
     start: Start | None = None,
     marks: Mapping[int, Region] = NO_MARKS,
     options: RunOptions = DEFAULT,
+    crew: Workforce | None = None,
     progress: Progress | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Report:
@@ -79,6 +78,7 @@ def run(
     start : where runs begin; the task's start by default.
     marks : by region id, what its motion surely recognises, if that is less than its target: the
         sensors are looked at where its borders are crossed.
+    crew : who makes the runs; as many processes as the options say by default.
     progress : told after each pair.
     cancelled : asked after each pair; then what was done so far is reported.
 
@@ -86,7 +86,7 @@ def run(
     ------
     PlanFileError : the plan is not solved.
     InputError : an adversary's choices are no choices.
-    PreimageError : a process was ended from outside.
+    PreimageError : processes are ended from outside again and again.
     ValueError : a name is not known.
 
     >>> import preimage
@@ -103,21 +103,14 @@ def run(
     # what is in the tables is found there by every process; functions are not handed over
     own = {name: one for name, one in controls.items() if CONTROLS.get(name) is not one}
     own_sensings = {name: one for name, one in sensings.items() if SENSINGS.get(name) is not one}
-    work = partial(_pair, controls=own, sensings=own_sensings, options=options)
-    collect = partial(_collected, options.runs * len(pairs), progress, cancelled)
-    if options.workers > 1 and len(pairs) > 1:
-        with ProcessPoolExecutor(
-            options.workers, initializer=_begin, initargs=(strategy, start, marks)
-        ) as pool:
-            try:
-                found = collect(pool.map(work, pairs))
-            except BrokenProcessPool:
-                raise PreimageError("a process that made runs was ended from outside") from None
-            finally:
-                pool.shutdown(cancel_futures=True)
-    else:
-        _prepare(strategy, start, marks)
-        found = collect(map(work, pairs))
+    setting = (strategy, start, marks)
+    work = partial(_pair, setting, controls=own, sensings=own_sensings, options=options)
+    with contextlib.ExitStack() as stack:
+        if crew is None:
+            crew = stack.enter_context(workforce(min(options.workers, len(pairs))))
+        results = crew.carry_out(work, pairs)
+        stack.callback(results.close)
+        found = _collected(options.runs * len(pairs), progress, cancelled, results)
     return _report(strategy, found, time.perf_counter() - began)
 
 
@@ -162,37 +155,39 @@ def _collected(
     total: int,
     progress: Progress | None,
     cancelled: Callable[[], bool] | None,
-    results: Iterable[tuple[Tally, list[Trace]]],
+    results: Iterable[tuple[int, tuple[Tally, list[Trace]]]],
 ) -> list[tuple[Tally, list[Trace]]]:
-    """The results, until somebody wants no more."""
-    found = []
+    """The results in the order of the pairs, until somebody wants no more."""
+    found = {}
     done = 0
-    for tally, traces in results:
-        found.append((tally, traces))
+    for place, (tally, traces) in results:
+        found[place] = (tally, traces)
         done += tally.runs
         if progress is not None:
             progress(done, total)
         if cancelled is not None and cancelled():
             break
-    return found
+    return [found[place] for place in sorted(found)]
 
 
-_prepared: list[tuple[Scene, Start]] = []
+_Setting = tuple[Strategy, Start, Mapping[int, Region]]
+
+_prepared: list[tuple[_Setting, Scene]] = []
 
 
-def _begin(strategy: Strategy, start: Start, marks: Mapping[int, Region]) -> None:
-    """Begin to work in a process of one's own: who wants it to stop tells its parent."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    _prepare(strategy, start, marks)
-
-
-def _prepare(strategy: Strategy, start: Start, marks: Mapping[int, Region]) -> None:
-    """Compile the plan, once in each process."""
-    _prepared[:] = [(Scene.of(strategy, marks), start)]
+def _scene(setting: _Setting) -> Scene:
+    """The plan compiled, once in each process: work is sent there once."""
+    for known, scene in _prepared:
+        if known is setting:
+            return scene
+    strategy, _, marks = setting
+    scene = Scene.of(strategy, marks)
+    _prepared[:] = [(setting, scene)]
+    return scene
 
 
 def _pair(
+    setting: _Setting,
     pair: Pair,
     controls: Mapping[str, Control],
     sensings: Mapping[str, Sensing],
@@ -204,7 +199,7 @@ def _pair(
     ----------
     controls, sensings : adversaries that are not in the tables.
     """
-    ((scene, start),) = _prepared
+    scene, start = _scene(setting), setting[1]
     adversaries = ({**CONTROLS, **controls}[pair[0]], {**SENSINGS, **sensings}[pair[1]])
     count = -(-options.runs // CHUNK)
     parts = [_chunk(scene, start, pair, adversaries, part, options) for part in range(count)]

@@ -8,6 +8,10 @@ from typing import TYPE_CHECKING
 from preimage import display
 
 if TYPE_CHECKING:
+    from preimage.analysis.budget import budget as budget
+    from preimage.analysis.explanation import explain as explain
+    from preimage.analysis.map import error_map as error_map
+    from preimage.analysis.survey import Survey as Survey
     from preimage.configuration.obstacles import configuration_space as configuration_space
     from preimage.errors import PreimageError as PreimageError
     from preimage.execution.executor import Executor as Executor
@@ -45,13 +49,17 @@ _HOMES: dict[str, str] = {
     "Setting": "preimage.preimages.setting",
     "Status": "preimage.strategy.strategy",
     "Strategy": "preimage.strategy.strategy",
+    "Survey": "preimage.analysis.survey",
     "Task": "preimage.task.task",
     "Template": "preimage.task.template",
     "animate": "preimage.rendering",
     "backproject": "preimage.reachability.backprojection",
+    "budget": "preimage.analysis.budget",
     "configuration_space": "preimage.configuration.obstacles",
     "describe": "preimage.strategy.describe",
     "draw": "preimage.rendering",
+    "error_map": "preimage.analysis.map",
+    "explain": "preimage.analysis.explanation",
     "kernel": "preimage.recognition.kernel",
     "load_task": "preimage.task.files",
     "load_template": "preimage.task.template",

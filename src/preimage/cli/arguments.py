@@ -280,9 +280,10 @@ def planner_options_without(*names: str) -> Callable[[Function], Function]:
     """The same, but for some that mean something else, or nothing, to a command."""
 
     def decorate(function: Function) -> Function:
+        own = list(vars(function).get("__click_params__", ()))
         function = planner_options(function)
         parameters: list[click.Parameter] = vars(function)["__click_params__"]
-        parameters[:] = [one for one in parameters if one.name not in names]
+        parameters[:] = [one for one in parameters if one in own or one.name not in names]
         return function
 
     return decorate

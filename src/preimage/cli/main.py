@@ -31,6 +31,8 @@ COMMANDS: dict[str, str] = {
     "kernel": "preimage.cli.stages",
     "preimage": "preimage.cli.stages",
     "directions": "preimage.cli.directions",
+    "budget": "preimage.cli.budget",
+    "explain": "preimage.cli.explain",
     "examples": "preimage.cli.inspection",
     "schema": "preimage.cli.inspection",
     "completion": "preimage.cli.completion",

@@ -42,12 +42,20 @@ class ProgressLine:
         )
 
     def runs(self, done: int, total: int) -> None:
-        """Say how many runs are done, if it is time to: a bar that fills."""
+        """Say how many runs are done, if it is time to."""
+        self._bar(done, total, "runs")
+
+    def cells(self, done: int, total: int) -> None:
+        """Say how many cells are known, and how many are wanted so far, if it is time to."""
+        self._bar(done, total, "cells")
+
+    def _bar(self, done: int, total: int, what: str) -> None:
+        """A bar that fills."""
         if not self._terminal or time.monotonic() < self._next:
             return
         self._next = time.monotonic() + PAUSE
         full = round(BAR * done / max(total, 1))
-        self._print(f"[{'#' * full}{'.' * (BAR - full)}] {done} of {total} runs")
+        self._print(f"[{'#' * full}{'.' * (BAR - full)}] {done} of {total} {what}")
 
     def say(self, text: str) -> None:
         """Say what is being done."""

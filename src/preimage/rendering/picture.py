@@ -18,6 +18,9 @@ from preimage.whole_file import write_whole
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from preimage.analysis.budget import Budget
+    from preimage.analysis.explanation import Explanation
+    from preimage.analysis.map import ErrorMap
     from preimage.configuration.region import Region
     from preimage.configuration.space import ConfigurationSpace
     from preimage.execution.report import Report
@@ -31,7 +34,8 @@ if TYPE_CHECKING:
     from preimage.task.task import Task
 
     Stage = Preimage | Backprojection | Region
-    Subject = Task | ConfigurationSpace | Strategy | Stage | Trace | Report | Compass
+    Analysis = Budget | ErrorMap | Explanation
+    Subject = Task | ConfigurationSpace | Strategy | Stage | Trace | Report | Compass | Analysis
 
 
 class Format(Enum):
@@ -154,6 +158,9 @@ def _figure(
     direction: float | None,
     options: dict[str, Any],
 ) -> Figure:
+    from preimage.analysis.budget import Budget
+    from preimage.analysis.explanation import Explanation
+    from preimage.analysis.map import ErrorMap
     from preimage.configuration.region import Region
     from preimage.configuration.space import ConfigurationSpace
     from preimage.execution.report import Report
@@ -190,12 +197,30 @@ def _figure(
             return report_figure(subject, chosen)
         case Compass():
             return compass_figure(subject, chosen)
+        case Budget() | ErrorMap() | Explanation():
+            return _analysis(subject, chosen)
         case Task():
             return stages.task_figure(subject, space, chosen)
         case ConfigurationSpace():
             return stages.space_figure(scene(subject), chosen)
         case Preimage() | Backprojection() | Region():
             return _stage(subject, scene, direction, chosen)
+
+
+def _analysis(subject: Analysis, chosen: PictureOptions) -> Figure:
+    from preimage.analysis.budget import Budget
+    from preimage.analysis.map import ErrorMap
+    from preimage.rendering.budget import budget_figure
+    from preimage.rendering.error_map import map_figure
+    from preimage.rendering.explanation import explanation_figure
+
+    if isinstance(subject, Budget):
+        return budget_figure(subject)
+    return (
+        map_figure(subject)
+        if isinstance(subject, ErrorMap)
+        else explanation_figure(subject, chosen)
+    )
 
 
 def _stage(

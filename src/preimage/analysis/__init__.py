@@ -1,0 +1,1 @@
+"""How much error there may be, and why there is no more: budgets, maps, explanations."""

@@ -14,6 +14,7 @@ from benchmarks.layers import fixpoints
 from benchmarks.planning import processes, small_scenes, whole_plans
 from benchmarks.threads import threads
 from benchmarks.timing import table
+from benchmarks.workforces import workforces
 
 BENCHMARKS = {
     "Growth of the sweep": growth,
@@ -26,6 +27,7 @@ BENCHMARKS = {
     "Motions": motions,
     "Readings": executors,
     "Threads": threads,
+    "Workforces": workforces,
 }
 
 PAGE = """# Benchmarks

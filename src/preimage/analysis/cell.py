@@ -88,7 +88,7 @@ def length(strategy: Strategy) -> int | None:
 
     >>> import preimage
     >>> length(preimage.plan(preimage.named_task("peg-in-hole")))
-    1
+    2
     """
     if strategy.status is not Status.SOLVED:
         return None

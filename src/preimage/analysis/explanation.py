@@ -97,7 +97,7 @@ def explain(
     >>> survey = Survey.of(preimage.named_task("peg-in-hole"))
     >>> found = explain(survey, budgeted=False)
     >>> found.asked.why[0].kind.value
-    'unsure'
+    'trap'
     """
     task = replace(survey.template.task(), options=survey.options)
     made = plan(task)

@@ -15,7 +15,9 @@ from preimage.task.examples import named_task
 from preimage.task.options import Method
 
 TASK = "peg-in-hole"
-PLACES = (24, 24)
+PLACES = (16, 16)
+RUNS = 2
+
 ITEMS = 2_000
 """Empty pieces of work, to see what one costs that is nothing."""
 
@@ -28,7 +30,7 @@ def cluster(workers: int) -> Iterator[Workforce]:
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     with (
         LocalCluster(
-            n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
+            n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=":0",
             scheduler_port=0, silence_logs=logging.CRITICAL,
         ) as made,
         workforce(scheduler=made.scheduler_address) as crew,
@@ -37,12 +39,14 @@ def cluster(workers: int) -> Iterator[Workforce]:
 
 
 def mapped(crew: Workforce) -> tuple[float, int]:
-    """Seconds for a map, begun with everything started, and how many plans it took."""
-    list(crew.carry_out(abs, range(4 * crew.size)))
-    began = time.perf_counter()
-    survey = Survey.of(named_task(TASK), workforce=crew)
-    found = error_map(survey, "control", "position", places=PLACES, methods=(Method.COMBINED,))
-    return time.perf_counter() - began, found.looked_at
+    """The least seconds for a map, and how many plans it took."""
+    least, plans = float("inf"), 0
+    for _ in range(RUNS):
+        began = time.perf_counter()
+        survey = Survey.of(named_task(TASK), workforce=crew)
+        found = error_map(survey, "control", "position", places=PLACES, methods=(Method.COMBINED,))
+        least, plans = min(least, time.perf_counter() - began), found.looked_at
+    return least, plans
 
 
 def empty(crew: Workforce) -> float:

@@ -141,7 +141,7 @@ def cluster() -> Iterator[Any]:
     distributed = pytest.importorskip("distributed")
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     with distributed.LocalCluster(
-        n_workers=3, threads_per_worker=1, processes=True, dashboard_address=None,
+        n_workers=3, threads_per_worker=1, processes=True, dashboard_address=":0",
         scheduler_port=0, silence_logs=logging.CRITICAL,
     ) as found:  # fmt: skip
         yield found

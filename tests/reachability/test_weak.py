@@ -187,6 +187,19 @@ def test_it_holds_the_backprojection(scene: Scene) -> None:
     assert within(strong, of(scene, scene.target), NEAR)
 
 
+def test_a_target_at_the_end_of_an_open_side_is_slid_to() -> None:
+    """Up to the right, under a ceiling as wide as the window, into its open corner."""
+    space = space_of([box(-9, 6, 9, 9)])
+    ceiling = edge_from(space, 6, 6)
+    corner = at_vertex(ceiling)
+    command = sources(space.contact, math.radians(45), math.radians(5), 0.0, space.tolerance)
+    strong = backproject(space, corner, command).region
+    found = weak(space, corner, 45.0, 5.0, 0.0)
+    assert spans(strong) == spans(found) == {ceiling: [(0.0, 12.0)]}
+    assert strong.area.measure > 50.0
+    assert within(strong, found, NEAR)
+
+
 def test_two_commands_together_reach_what_zigzags_do() -> None:
     """Down to the left and down to the right by 30 degrees: all within 30 degrees of down."""
     space = space_of([FLOOR])

@@ -130,7 +130,9 @@ def reversed_passages(
     """How motions along `direction`, run backwards, come to edges and slide on them.
 
     Run backwards, a motion comes to the edges that it leaves: those that some `-v*` flies to. It
-    slides along an edge from its end to its start iff forwards it slides from start to end.
+    slides along an edge from its end to its start iff forwards it slides from start to end. What
+    leaves the window does not come back, so that an open side is neither come from nor slid on;
+    that it ends motions is left out, for a target may lie at its end.
 
     Parameters
     ----------
@@ -142,14 +144,14 @@ def reversed_passages(
     """
     ahead = passages(contact, direction, control, friction, tolerance)
     behind = passages(contact, direction + math.pi, control, friction, tolerance)
-    kept = np.uint8(Passage.TOUCHES | Passage.OPEN)
-    codes: Codes = behind & kept
+    codes: Codes = behind & np.uint8(Passage.TOUCHES)
     for way, back in (
         (Passage.FORWARD, Passage.BACKWARD),
         (Passage.BACKWARD, Passage.FORWARD),
     ):
         slides = (ahead & np.uint8(way)) != 0
         codes |= slides.view(np.uint8) * np.uint8(back)
+    codes[contact.open] = 0
     return codes
 
 

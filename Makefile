@@ -20,7 +20,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help build demo test lint types contracts pytest slow soundness sanitize bench lock format clean
+.PHONY: help build demo docs test lint types contracts pytest slow soundness sanitize bench lock format clean
 
 help: ## say what there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -55,13 +55,17 @@ demo: build ## plan peg-in-hole, run it 1,000 times under all adversaries, leave
 	$(BIN)/preimage run build/demo/peg-in-hole.json --adversary all --runs 1000 \
 	    --figure build/demo/runs.png
 
+docs: build ## make the site of the documentation in build/docs, without a network
+	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -j $(WORKERS) docs build/docs
+	@echo "build/docs/index.html"
+
 bench: build ## run the benchmarks
 	$(BIN)/python -m benchmarks --page docs/benchmarks.md
 
 # --- checking -------------------------------------------------------------------------------
 
-# CI looks at the native module under the sanitizers too.
-test: build lint types contracts pytest $(if $(CI),sanitize) ## run every check and test
+# CI makes the site, and looks at the native module under the sanitizers, too.
+test: build lint types contracts pytest $(if $(CI),docs sanitize) ## run every check and test
 
 lint: build ## ruff: rules and format
 	$(BIN)/ruff check .

@@ -37,6 +37,7 @@ html_title = "preimage"
 html_static_path = ["site"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
+html_show_copyright = False
 html_copy_source = False
 html_extra_path = ["task.schema.json", "plan.schema.json"]
 viewcode_line_numbers = True

@@ -55,6 +55,7 @@ WORDS: dict[Layer, str] = {
     Layer.BEGIN: "where it begins",
     Layer.END: "where it is ended",
     Layer.MEASURED: "position as measured",
+    Layer.STOPS: "readings that end the motion",
     Layer.FORCE: "force as measured",
     Layer.REASON: "what stands in the way",
     Layer.SOLVES: "directions that solve",

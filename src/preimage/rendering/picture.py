@@ -29,13 +29,16 @@ if TYPE_CHECKING:
     from preimage.reachability.backprojection import Backprojection
     from preimage.rendering.options import PictureOptions
     from preimage.rendering.scene import Scene
+    from preimage.rendering.views import Views
     from preimage.search.compass import Compass
     from preimage.strategy.strategy import Strategy
     from preimage.task.task import Task
 
     Stage = Preimage | Backprojection | Region
     Analysis = Budget | ErrorMap | Explanation
-    Subject = Task | ConfigurationSpace | Strategy | Stage | Trace | Report | Compass | Analysis
+    Subject = (
+        Task | ConfigurationSpace | Strategy | Stage | Trace | Report | Compass | Analysis | Views
+    )
 
 
 class Format(Enum):
@@ -174,6 +177,7 @@ def _figure(
     from preimage.rendering.scene import Scene
     from preimage.rendering.strategy import strategy_figure
     from preimage.rendering.trace import report_figure, trace_figure
+    from preimage.rendering.views import Views
     from preimage.search.compass import Compass
     from preimage.strategy.strategy import Strategy
     from preimage.task.task import Task
@@ -197,8 +201,8 @@ def _figure(
             return report_figure(subject, chosen)
         case Compass():
             return compass_figure(subject, chosen)
-        case Budget() | ErrorMap() | Explanation():
-            return _analysis(subject, chosen)
+        case Budget() | ErrorMap() | Explanation() | Views():
+            return _own_panels(subject, chosen)
         case Task():
             return stages.task_figure(subject, space, chosen)
         case ConfigurationSpace():
@@ -207,20 +211,25 @@ def _figure(
             return _stage(subject, scene, direction, chosen)
 
 
-def _analysis(subject: Analysis, chosen: PictureOptions) -> Figure:
+def _own_panels(subject: Analysis | Views, chosen: PictureOptions) -> Figure:
+    """Of what says itself what its panels show."""
     from preimage.analysis.budget import Budget
     from preimage.analysis.map import ErrorMap
     from preimage.rendering.budget import budget_figure
     from preimage.rendering.error_map import map_figure
     from preimage.rendering.explanation import explanation_figure
+    from preimage.rendering.view_panels import views_figure
+    from preimage.rendering.views import Views
 
-    if isinstance(subject, Budget):
-        return budget_figure(subject)
-    return (
-        map_figure(subject)
-        if isinstance(subject, ErrorMap)
-        else explanation_figure(subject, chosen)
-    )
+    match subject:
+        case Budget():
+            return budget_figure(subject)
+        case ErrorMap():
+            return map_figure(subject)
+        case Views():
+            return views_figure(subject, chosen)
+        case _:
+            return explanation_figure(subject, chosen)
 
 
 def _stage(

@@ -78,6 +78,7 @@ class Layer(Enum):
     BEGIN = "begin"
     END = "end"
     MEASURED = "measured"
+    STOPS = "stops"
     FORCE = "force"
     REASON = "reason"
     ROSE = "rose"
@@ -154,6 +155,9 @@ REGIONS: dict[Layer, RegionStyle] = {
     Layer.LOST: RegionStyle(
         color=PURPLE, tint=0.14, hatch="oo", outline=0.8, dashes=(0.0, (1.0, 1.6)), contact=1.6,
         contact_dashes=(0.0, (1.0, 1.6)), marker="v", size=4.2, order=4.8, cost=0.4,
+    ),
+    Layer.STOPS: RegionStyle(
+        color=BLACK, outline=1.1, dashes=(0.0, (1.0, 1.6)), order=6.2, cost=0.2,
     ),
 }  # fmt: skip
 """The layers that are regions. On a contact edge they lie beside each other, the goal innermost."""

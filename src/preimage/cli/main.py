@@ -33,7 +33,9 @@ COMMANDS: dict[str, str] = {
     "directions": "preimage.cli.directions",
     "budget": "preimage.cli.budget",
     "explain": "preimage.cli.explain",
+    "studio": "preimage.cli.studio",
     "examples": "preimage.cli.inspection",
+    "import": "preimage.cli.importing",
     "schema": "preimage.cli.inspection",
     "completion": "preimage.cli.completion",
 }

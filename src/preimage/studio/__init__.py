@@ -1,0 +1,1 @@
+"""The studio: a page in the browser, served from this machine, and the same view in a notebook."""

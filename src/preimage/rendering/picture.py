@@ -82,7 +82,8 @@ def figure(
     """A matplotlib figure of a task, a space, a strategy, a stage of planning, or of runs.
 
     A strategy becomes a row of panels, one a motion; what has no strategy, a panel of what was
-    found. It belongs to no window and leaves matplotlib's settings as they were.
+    found; `views.Views` are panels that the caller has composed. It belongs to no window and leaves
+    matplotlib's settings as they were.
 
     Parameters
     ----------

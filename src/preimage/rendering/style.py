@@ -157,7 +157,8 @@ REGIONS: dict[Layer, RegionStyle] = {
         contact_dashes=(0.0, (1.0, 1.6)), marker="v", size=4.2, order=4.8, cost=0.4,
     ),
     Layer.STOPS: RegionStyle(
-        color=BLACK, outline=1.1, dashes=(0.0, (1.0, 1.6)), order=6.2, cost=0.2,
+        color=BLACK, outline=1.1, dashes=(0.0, (1.0, 1.6)), contact=1.1, marker="*", order=6.2,
+        cost=0.2,
     ),
 }  # fmt: skip
 """The layers that are regions. On a contact edge they lie beside each other, the goal innermost."""

@@ -30,7 +30,7 @@ def points_of(points: Floats | Sequence[tuple[float, float]]) -> list[list[float
 
 def area_of(area: Area) -> list[list[list[list[float]]]]:
     """Polygons, each a list of rings that are not closed: the outer one, and the holes."""
-    return [[points_of(ring) for ring in part.rings] for part in area.parts]
+    return [[points_of(ring) for ring in part.rings] for part in area.parts if not part.is_empty]
 
 
 def region_of(region: Region, contact: ContactSpace) -> Plain:

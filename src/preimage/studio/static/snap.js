@@ -1,0 +1,53 @@
+// Where a point goes that is nearly somewhere: vertices, contact edges, the grid.
+
+import { gridStep } from "./drawing.js";
+
+const NEAR_PIXELS = 9;
+
+/**
+ * The point to which another one snaps, and what it snapped to.
+ *
+ * @param {object} options `contact`: only contact space counts; `others`: points to snap to.
+ * @returns {{point: number[], to: "vertex"|"edge"|"grid"|null, edge?: object}}
+ */
+export function snapped(point, view, store, { contact = false, others = [], off = false } = {}) {
+  const space = store.get("space");
+  const near = NEAR_PIXELS * view.scale;
+  if (off || !store.get("snap")) return contact ? onContact(point, space, near * 3) : { point, to: null };
+  const corners = [...others, ...(space?.vertices ?? []).map(({ at }) => at)];
+  const corner = nearestOf(corners, point, near);
+  if (corner) return { point: [...corner], to: "vertex" };
+  const edge = onContact(point, space, contact ? near * 3 : near);
+  if (edge.to) return edge;
+  const step = gridStep(view) / 5;
+  const rounded = point.map((value) => Number((Math.round(value / step) * step).toFixed(9)));
+  return { point: rounded, to: "grid" };
+}
+
+function nearestOf(points, [x, y], near) {
+  let best = null;
+  let least = near;
+  for (const [u, v] of points) {
+    const away = Math.hypot(u - x, v - y);
+    if (away <= least) [best, least] = [[u, v], away];
+  }
+  return best;
+}
+
+function onContact(point, space, near) {
+  let found = { point, to: null };
+  let least = near;
+  for (const edge of space?.features ?? []) {
+    const on = projected(point, edge.from, edge.to);
+    const away = Math.hypot(on[0] - point[0], on[1] - point[1]);
+    if (away <= least) [found, least] = [{ point: on, to: "edge", edge }, away];
+  }
+  return found;
+}
+
+/** The point of a segment that is nearest. */
+export function projected([x, y], [x0, y0], [x1, y1]) {
+  const [dx, dy] = [x1 - x0, y1 - y0];
+  const share = Math.max(0, Math.min(1, ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1)));
+  return [x0 + share * dx, y0 + share * dy];
+}

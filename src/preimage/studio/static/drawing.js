@@ -1,7 +1,7 @@
 // The task as it is drawn: workspace, configuration space, goal, start, robot, the plan's regions.
 
 import { Latest, Refusal } from "./ask.js";
-import { areaPath, dot, html, linePath, regionElements, segmentsPath, svg, unit } from "./svg.js";
+import { areaPath, dot, linePath, regionElements, segmentsPath, svg, unit } from "./svg.js";
 
 const GRID_PIXELS = 56;
 
@@ -73,7 +73,6 @@ function drawSpace(view, space) {
   view.draw("workspace", svg("path", { class: "solid area", d: areaPath(space.solid) }));
   view.draw("space", svg("path", { class: "c-obstacle area", d: areaPath(space.obstacles), "data-role": "c-obstacle" }));
   const sides = { left: [x0, y0, x0, y1], right: [x1, y0, x1, y1], bottom: [x0, y0, x1, y0], top: [x0, y1, x1, y1] };
-  view.draw("grid");
   drawGrid(view);
   view.layer("space").append(
     svg("path", { class: "side", d: segmentsPath(space.open) }),
@@ -198,11 +197,35 @@ function wireOverlay(store, view) {
   byId("zoom-in").onclick = () => view.zoom(0.8);
   byId("zoom-out").onclick = () => view.zoom(1.25);
   byId("zoom-home").onclick = () => view.home();
+  const mirror = mirrorOf(view, byId("beside"));
   byId("space-shown").onchange = (event) => {
-    view.element.classList.toggle("alone", event.target.value === "beside");
-    view.element.classList.toggle("no-space", event.target.value === "hidden");
+    const { value } = event.target;
+    view.element.classList.toggle("alone", value === "alone");
+    view.element.classList.toggle("no-space", ["beside", "hidden"].includes(value));
+    byId("middle").classList.toggle("split", value === "beside");
+    byId("beside").toggleAttribute("hidden", value !== "beside");
+    mirror(value === "beside");
   };
 }
 
-/** A paragraph for a panel. */
-export const words = (text, kind = "") => html("p", { class: kind }, text);
+/** What is drawn, once more without the workspace, as long as it is switched on. */
+function mirrorOf(view, element) {
+  let waiting = false;
+  const copy = () => {
+    waiting = false;
+    const plane = view.plane.cloneNode(true);
+    for (const name of ["workspace", "handles", "robot"]) plane.querySelector(`[data-layer=${name}]`).replaceChildren();
+    element.replaceChildren(plane);
+  };
+  const observer = new MutationObserver(() => {
+    if (!waiting) requestAnimationFrame(copy);
+    waiting = true;
+  });
+  return (on) => {
+    observer.disconnect();
+    element.replaceChildren();
+    if (!on) return;
+    observer.observe(view.plane, { subtree: true, childList: true, attributes: true });
+    copy();
+  };
+}

@@ -7,7 +7,7 @@ const FURTHEST = 10;
 
 /** The layers, from the bottom to the top. */
 export const LAYERS = [
-  "ground", "grid", "workspace", "space", "preimages", "backprojection", "target", "features",
+  "ground", "grid", "space", "workspace", "preimages", "backprojection", "target", "features",
   "rays", "start", "goal", "trace", "robot", "reading", "handles", "labels",
 ];
 

@@ -65,8 +65,7 @@ function windowOf(store) {
       onchange: () => store.edit("walls", (t) => { t.walls = wall.checked ? [...t.walls, side] : t.walls.filter((one) => one !== side); }),
     });
     const row = entry(`window-${side}`, side, task.window[place], (value) => store.edit("window", (t) => { t.window[place] = value; }));
-    row.append(wall, "wall");
-    return row;
+    return html("div", { class: "window-side" }, row, html("span", { class: "check" }, wall, "wall"));
   });
   const everywhere = html("button", { type: "button", id: "start-everywhere", onclick: () => store.edit("start everywhere", (t) => { t.initial = "everywhere"; }) }, "Start everywhere");
   return [html("span", { class: "faded" }, "Window"), ...rows, everywhere];

@@ -12,7 +12,7 @@ export function mount({ store, view }) {
 
 class Running {
   constructor(store, view) {
-    Object.assign(this, { store, view, latest: new Latest(), run: null, start: null });
+    Object.assign(this, { store, view, latest: new Latest(), many: new Latest(), run: null, start: null });
     this.transport = new Transport((time) => this.show(time));
   }
 
@@ -27,7 +27,7 @@ class Running {
     this.says = html("p", { id: "run-says", "aria-live": "off" });
     this.outcome = html("p", { id: "run-outcome", role: "status" });
     this.counts = html("div", { id: "runs-result", "aria-live": "polite" });
-    this.cancel = html("button", { type: "button", id: "runs-cancel", hidden: true, onclick: () => this.latest.cancel() }, "Cancel");
+    this.cancel = html("button", { type: "button", id: "runs-cancel", hidden: true, onclick: () => this.many.cancel() }, "Cancel");
     panel.append(
       html("p", { class: "faded" }, "Nature chooses every error within its bounds. Drag the robot in the drawing to another start."),
       html("label", { class: "field" }, "its motion", this.control),
@@ -121,7 +121,7 @@ class Running {
     if (plan?.status !== "solved") return;
     this.cancel.hidden = false;
     try {
-      const found = await this.latest.ask("runs", { plan: plan.plan, runs: 100 }, {
+      const found = await this.many.ask("runs", { plan: plan.plan, runs: 100 }, {
         progress: ({ done, total }) => { this.counts.textContent = `${done} of ${total} runs`; },
       });
       const rows = found.pairs.filter(({ failures }) => failures).slice(0, 12);

@@ -17,11 +17,14 @@ export function snapped(point, view, store, { contact = false, others = [], off 
   const corners = [...others, ...(space?.vertices ?? []).map(({ at }) => at)];
   const corner = nearestOf(corners, point, near);
   if (corner) return { point: [...corner], to: "vertex" };
-  const edge = onContact(point, space, contact ? near * 3 : near);
-  if (edge.to) return edge;
   const step = gridStep(view) / 5;
-  const rounded = point.map((value) => Number((Math.round(value / step) * step).toFixed(9)));
-  return { point: rounded, to: "grid" };
+  const rounded = (place) => place.map((value) => Number((Math.round(value / step) * step).toFixed(9)));
+  const edge = onContact(point, space, contact ? near * 3 : near);
+  if (!edge.to) return { point: rounded(point), to: "grid" };
+  // a point of the grid on that edge, if there is one near
+  const [x, y] = rounded(edge.point);
+  const [u, v] = projected([x, y], edge.edge.from, edge.edge.to);
+  return Math.hypot(u - x, v - y) < 1e-9 * step ? { ...edge, point: [x, y] } : edge;
 }
 
 function nearestOf(points, [x, y], near) {

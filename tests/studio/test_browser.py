@@ -165,6 +165,9 @@ def test_a_run_shows_what_the_robot_knows_and_where_it_is(page: Page) -> None:
     page.select_option("#run-view", "is")
     assert page.locator("[data-layer=reading] .error-disc").count() == 0
     drag(page, (-4.0, 2.5), (-6.0, 1.5))
+    expect(page.locator("[data-layer=trace] .way").first).to_have_attribute(
+        "d", re.compile(r"^M-(5\.9|6)")
+    )
     expect(page.locator("#run-outcome")).to_contain_text("in the goal, and known to be")
     shot(page, "run")
 
@@ -269,7 +272,8 @@ def test_it_fits_and_every_control_has_a_name(
         if width == 1280:
             assert page.evaluate("document.documentElement.scrollHeight") <= height
         nameless = page.evaluate(
-            """() => [...document.querySelectorAll('button, input, select, [role=button], [role=slider]')]
+            """() => [...document.querySelectorAll(
+                'button, input, select, [role=button], [role=slider]')]
               .filter((one) => one.type !== 'file')
               .filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim()
                 || one.labels?.length || one.title)).map((one) => one.outerHTML)"""

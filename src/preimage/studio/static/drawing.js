@@ -120,6 +120,13 @@ export function gridStep(view) {
   return power * [1, 2, 5, 10].find((factor) => factor * power >= least);
 }
 
+/** The round number of units that points snap to: a part of a square of the grid. */
+export function fineStep(view) {
+  const step = gridStep(view);
+  const lead = Math.round(step / 10 ** Math.floor(Math.log10(step) + 1e-9));
+  return step / (lead === 2 ? 4 : 5);
+}
+
 /** The regions of the plan by motion, each with its number and its direction. */
 function drawPlan(store, view) {
   const [plan, tab] = [store.get("plan"), store.get("tab")];

@@ -1,6 +1,6 @@
 // Where a point goes that is nearly somewhere: vertices, contact edges, the grid.
 
-import { gridStep } from "./drawing.js";
+import { fineStep } from "./drawing.js";
 
 const NEAR_PIXELS = 9;
 
@@ -17,7 +17,7 @@ export function snapped(point, view, store, { contact = false, others = [], off 
   const corners = [...others, ...(space?.vertices ?? []).map(({ at }) => at)];
   const corner = nearestOf(corners, point, near);
   if (corner) return { point: [...corner], to: "vertex" };
-  const step = gridStep(view) / 5;
+  const step = fineStep(view);
   const rounded = (place) => place.map((value) => Number((Math.round(value / step) * step).toFixed(9)));
   const edge = onContact(point, space, contact ? near * 3 : near);
   if (!edge.to) return { point: rounded(point), to: "grid" };

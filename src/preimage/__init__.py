@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from preimage.analysis.survey import Survey as Survey
     from preimage.configuration.obstacles import configuration_space as configuration_space
     from preimage.errors import PreimageError as PreimageError
+    from preimage.exchange.export import export as export
+    from preimage.exchange.importing import import_task as import_task
     from preimage.execution.executor import Executor as Executor
     from preimage.execution.runs import run as run
     from preimage.preimages.methods import preimage as preimage
@@ -60,6 +62,8 @@ _HOMES: dict[str, str] = {
     "draw": "preimage.rendering",
     "error_map": "preimage.analysis.map",
     "explain": "preimage.analysis.explanation",
+    "export": "preimage.exchange.export",
+    "import_task": "preimage.exchange.importing",
     "kernel": "preimage.recognition.kernel",
     "load_task": "preimage.task.files",
     "load_template": "preimage.task.template",

@@ -24,6 +24,7 @@ FAILED, INTERRUPTED = 70, 130
 COMMANDS: dict[str, str] = {
     "plan": "preimage.cli.planning",
     "run": "preimage.cli.execution",
+    "export": "preimage.cli.exporting",
     "verify": "preimage.cli.verification",
     "check": "preimage.cli.inspection",
     "draw": "preimage.cli.drawing",

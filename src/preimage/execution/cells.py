@@ -32,6 +32,33 @@ class Part(IntEnum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class ReadingTable:
+    """The plain definition of a reading condition, as flat tables: what a compiled one is made of.
+
+    A reading misses the set iff no segment whose kind reads the force is nearer to q than `reach`,
+    and, where none is felt, q is not inside the area that the border segments bound.
+
+    Parameters
+    ----------
+    zero : (m,) by kind, whether 0 is read.
+    center, half : (m,) by kind, the directions that are read, tolerance included, radians; `half` is
+        -1 where none is.
+    segments : (k, 4) from and to.
+    kind : (k,) which kind each is of.
+    parts : (k,) `Part`.
+    reach : a length; infinite without a position sensor.
+    """
+
+    zero: Bools
+    center: Floats
+    half: Floats
+    segments: Floats
+    kind: Ints
+    parts: NDArray[np.uint8]
+    reach: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class ReadingCells:
     """Whether `K_v(q, f)` misses a set, by point location: a quadtree over q, its leaves over f.
 
@@ -41,6 +68,7 @@ class ReadingCells:
     bit (`recognition.interpretation.contained`), at least on machines whose GEOS does not contract.
     """
 
+    table: ReadingTable
     _cells: _native.Cells
 
     def misses(self, x: float, y: float, force: float | None) -> bool:
@@ -101,11 +129,13 @@ def reading_cells(
     reach = max(radius, margin) + 0.5 * margin
     segments, parts = _parts(space, readings, rest)
     zero, center, half, kind = _sets(readings, segments.feature)
+    ends = np.concatenate((segments.starts, segments.ends), axis=1)
+    table = ReadingTable(zero, center, half, ends, kind, parts, reach)
     cells = _native.cut_into_cells(
         zero.view(np.uint8),
         center,
         half,
-        np.concatenate((segments.starts, segments.ends), axis=1).ravel(),
+        ends.ravel(),
         kind,
         parts,
         reach,
@@ -113,7 +143,7 @@ def reading_cells(
         FEW,
         MOST[0] + MOST[1] * len(segments),
     )
-    return ReadingCells(cells)
+    return ReadingCells(table, cells)
 
 
 def _parts(

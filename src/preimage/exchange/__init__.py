@@ -1,0 +1,1 @@
+"""Doors in and out: drawings and maps to tasks, plans to other programs' files."""

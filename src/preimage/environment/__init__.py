@@ -1,0 +1,1 @@
+"""Any task as a Gymnasium environment, so that learners and solvers meet the same nature."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +15,8 @@ from gymnasium.utils.env_checker import check_env
 
 import preimage
 from preimage.environment.agent import PlanAgent
-from preimage.environment.guarded import NAME, GuardedMotion
+from preimage.environment.guarded import GuardedMotion
+from preimage.environment.registration import NAME
 from preimage.errors import InputError
 from preimage.execution.control import CONTROLS
 from preimage.execution.sensing import SENSINGS
@@ -158,6 +161,14 @@ def test_any_nature_is_met() -> None:
     met = {(env.reset(seed=seed)[1][key]) for seed in range(60) for key in ("control", "sensing")}
     assert met <= {*CONTROLS, *SENSINGS}
     assert len(met) > 12
+
+
+def test_gymnasium_finds_it_by_its_module() -> None:
+    name = f"preimage.environment:{NAME}"
+    script = f"import gymnasium; print(gymnasium.make({name!r}, task='flat-floor').action_space)"
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stdout.strip() == "Discrete(9)", done.stderr
 
 
 def test_vectors_of_it() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -19,9 +19,6 @@ from preimage.task.task import Task
 
 Observation = dict[str, NDArray[np.float64]]
 Action = Any
-
-NAME = "preimage/GuardedMotion-v0"
-"""By which `gymnasium.make` knows it."""
 
 STEPS_ACROSS = 120.0
 """Steps in which the robot crosses the window."""
@@ -55,7 +52,7 @@ class GuardedMotion(gymnasium.Env[Observation, Action]):
     InputError : an option is out of its range.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["ansi"], "render_fps": 20}
+    metadata = {"render_modes": ["ansi"], "render_fps": 20}  # noqa: RUF012 (as its base has it)
 
     def __init__(
         self,
@@ -85,9 +82,10 @@ class GuardedMotion(gymnasium.Env[Observation, Action]):
         reach = senses.position if senses.has_position_sensor else 0.0
         low = np.minimum(np.array([xmin, ymin]) - reach, 0.0) - 1e-6 * across
         high = np.maximum(np.array([xmax, ymax]) + reach, 0.0) + 1e-6 * across
-        self.observation_space = spaces.Dict(
+        self._box = spaces.Box(low, high, dtype=np.float64)
+        self.observation_space: spaces.Space[Any] = spaces.Dict(
             {
-                "position": spaces.Box(low, high, dtype=np.float64),
+                "position": self._box,
                 "force": spaces.Box(-1.0, 1.0, (2,), dtype=np.float64),
                 "time": spaces.Box(0.0, 2.0 * self.patience, (1,), dtype=np.float64),
             }
@@ -137,7 +135,7 @@ class GuardedMotion(gymnasium.Env[Observation, Action]):
         late = self._time >= self.patience
         if late:
             self._outcome = "took too long"
-        return self._observation(), -self._cost, False, late, self._info()
+        return self._observation(), 0.0 - self._cost, False, late, self._info()
 
     def action_of(self, direction: float | None) -> Action:
         """The action that commands a direction, radians, or says “here I am” where it is None.
@@ -152,7 +150,7 @@ class GuardedMotion(gymnasium.Env[Observation, Action]):
             return self.directions
         return round(direction * self.directions / (2.0 * math.pi)) % self.directions
 
-    def render(self) -> str:  # type: ignore[override]
+    def render(self) -> str:
         """Where the robot is, in a line."""
         assert self._place is not None, "reset first"
         x, y = self._place.point
@@ -176,7 +174,7 @@ class GuardedMotion(gymnasium.Env[Observation, Action]):
             self._place, self._direction, self._control, self._sensing, self._lots, self.np_random
         )
         position = np.array(sensed.position)
-        box = self.observation_space["position"]  # type: ignore[index]
+        box = self._box
         force = sensed.force
         push = (0.0, 0.0) if force is None else (math.cos(force), math.sin(force))
         return {
@@ -201,7 +199,7 @@ class GuardedMotion(gymnasium.Env[Observation, Action]):
 def _actions(directions: int | None) -> spaces.Space[Any]:
     if directions is None:
         return spaces.Box(-1.0, 1.0, (3,), dtype=np.float64)
-    if isinstance(directions, bool) or not isinstance(directions, int) or directions < 1:
+    if not directions >= 1 or directions != int(directions):
         raise InputError("directions", f"must be a whole number of at least 1, not {directions}")
     return spaces.Discrete(directions + 1)
 
@@ -216,12 +214,3 @@ def _known(name: str, chosen: str, table: dict[str, Any]) -> str:
     if chosen != "any" and chosen not in table:
         raise InputError(name, f"must be one of {', '.join(table)}, any, not {shown(chosen)}")
     return chosen
-
-
-def register() -> None:
-    """Make the environment known to `gymnasium.make`; an entry point of the package."""
-    if NAME not in gymnasium.registry:
-        gymnasium.register(NAME, entry_point="preimage.environment.guarded:GuardedMotion")
-
-
-register()

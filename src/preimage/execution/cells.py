@@ -41,8 +41,8 @@ class ReadingTable:
     Parameters
     ----------
     zero : (m,) by kind, whether 0 is read.
-    center, half : (m,) by kind, the directions that are read, tolerance included, radians; `half` is
-        -1 where none is.
+    center, half : (m,) by kind, the directions that are read, tolerance included, radians; `half`
+        is -1 where none is.
     segments : (k, 4) from and to.
     kind : (k,) which kind each is of.
     parts : (k,) `Part`.

@@ -20,7 +20,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help build demo docs test lint types contracts pytest slow soundness sanitize bench lock format clean
+.PHONY: help build demo docs test lint types contracts pytest browser slow soundness sanitize bench lock format clean
 
 help: ## say what there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -65,7 +65,7 @@ bench: build ## run the benchmarks
 # --- checking -------------------------------------------------------------------------------
 
 # CI makes the site, and looks at the native module under the sanitizers, too.
-test: build lint types contracts pytest $(if $(CI),docs sanitize) ## run every check and test
+test: build lint types contracts pytest browser $(if $(CI),docs sanitize) ## run every check and test
 
 lint: build ## ruff: rules and format
 	$(BIN)/ruff check .
@@ -78,7 +78,10 @@ contracts: build ## import-linter: the floors
 	$(BIN)/lint-imports --no-logo
 
 pytest: build ## tests and doctests, without the slow ones
-	$(BIN)/pytest -n $(WORKERS) -m "not slow"
+	$(BIN)/pytest -n $(WORKERS) -m "not slow and not browser"
+
+browser: build ## the studio's tests in a real browser (Chromium), pictures in build/screenshots
+	$(BIN)/pytest -m "browser and not slow" tests/studio
 
 slow: build ## the slow tests: the laws and the sweep on many more scenes, some 20 minutes
 	$(BIN)/pytest -n $(WORKERS) -m slow
@@ -104,7 +107,7 @@ $(SANITIZED)/built: $(VENV)/built
 sanitize: build $(SANITIZED)/built ## run the tests under the address and undefined-behaviour sanitizers
 	LD_PRELOAD="$$($${CXX:-c++} -print-file-name=libasan.so) $$($${CXX:-c++} -print-file-name=libubsan.so)" \
 	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
-	    $(SANITIZED)/bin/python -m pytest -n $(WORKERS) -m "not slow"
+	    $(SANITIZED)/bin/python -m pytest -n $(WORKERS) -m "not slow and not browser"
 
 # --- keeping --------------------------------------------------------------------------------
 

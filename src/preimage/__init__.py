@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from preimage.strategy.plan_file import write_plan as write_plan
     from preimage.strategy.strategy import Status as Status
     from preimage.strategy.strategy import Strategy as Strategy
+    from preimage.studio.widget import widget as widget
     from preimage.task.examples import named_task as named_task
     from preimage.task.examples import named_tasks as named_tasks
     from preimage.task.files import load_task as load_task
@@ -75,6 +76,7 @@ _HOMES: dict[str, str] = {
     "read_plan": "preimage.strategy.plan_file",
     "run": "preimage.execution.runs",
     "verify": "preimage.verification.verify",
+    "widget": "preimage.studio.widget",
     "write_plan": "preimage.strategy.plan_file",
 }
 

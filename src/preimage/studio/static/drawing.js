@@ -66,7 +66,7 @@ function fitOnce(store, view, space) {
   view.fit(space.window);
 }
 
-function drawSpace(view, space) {
+export function drawSpace(view, space) {
   const [x0, y0, x1, y1] = space.window;
   const box = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
   view.draw("ground", svg("path", { class: "ground-free", d: `${linePath(box)}Z` }));

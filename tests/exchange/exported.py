@@ -125,5 +125,5 @@ class Tree:
             assert abs(told) < 1e-9
             yield float(node.get("direction") or "")
             answer = executor.read(*self._reading)
-        self._board["reached"] = answer.region
+        self._board["reached"] = answer.region if answer.doing == "done" else -1
         return answer.doing == "done"

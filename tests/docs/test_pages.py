@@ -83,7 +83,8 @@ def test_commands_print_what_they_print(
 
 
 def provide(page: Path, folder: Path) -> None:
-    """The files that a page shows lie beside what it runs."""
+    """The files that a page shows lie beside what it runs, and so do the examples."""
+    (folder / "examples").symlink_to(ROOT / "examples")
     for shown in re.findall(r"{literalinclude} (\S+)", page.read_text(encoding="utf-8")):
         shutil.copy(page.parent / shown, folder)
 

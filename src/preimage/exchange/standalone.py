@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """A plan that carries itself out: the standard library is all it needs (Python 3.9 or later).
 
+How it is used::
+
     from plan import Executor
     executor = Executor()
     answer = executor.start(time, x, y)

@@ -7,7 +7,8 @@ import time
 
 
 def say(words: object) -> None:
-    print(json.dumps(words, separators=(",", ":")), flush=True)
+    sys.stdout.write(json.dumps(words, separators=(",", ":")) + "\n")
+    sys.stdout.flush()
 
 
 def main() -> None:
@@ -33,4 +34,5 @@ def main() -> None:
         say({"answer": {"pid": os.getpid()}})
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -52,7 +52,9 @@ class Served:
     def ask(self, question: str, **body: Any) -> list[dict[str, Any]]:
         """The lines of an answer."""
         with self.client as client:
-            answer = client.post(f"/ask/{question}", json=body)
+            content = json.dumps(body)
+            headers = {"Content-Type": "application/json"}
+            answer = client.post(f"/ask/{question}", content=content, headers=headers)
         assert answer.status_code == 200, answer.text
         return [json.loads(line) for line in answer.text.splitlines()]
 

@@ -26,7 +26,7 @@ from tests.studio.browser import (
 
 expect.set_options(timeout=20_000)
 
-pytestmark = [needs_browser, pytest.mark.xdist_group("browser")]
+pytestmark = [needs_browser, pytest.mark.browser]
 
 
 @pytest.fixture(scope="module")

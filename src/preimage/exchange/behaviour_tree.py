@@ -24,7 +24,7 @@ PORTS: dict[str, dict[str, tuple[str, str, str]]] = {
         "direction": ("input_port", "double", "to command: degrees, counter-clockwise from +x"),
         "until": ("input_port", "std::string", "when the motion ends, for people"),
         "tables": ("input_port", "std::string", "the same for the node, as JSON"),
-        "reached": ("output_port", "int", "the region in which the motion ended; -1 where it failed"),
+        "reached": ("output_port", "int", "where the motion ended; -1 if it failed"),
     },
 }
 """The nodes that the receiving side provides: port, direction, type, meaning."""

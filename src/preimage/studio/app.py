@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import json
+import math
 from collections.abc import AsyncGenerator, Collection, Mapping
 from contextlib import aclosing, asynccontextmanager
 from importlib import resources
 from typing import Any
 
 from starlette.applications import Starlette
+from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response
@@ -52,6 +54,9 @@ HEADERS = {
 }
 """Said with everything that is answered."""
 
+OWN_HEADERS = tuple((key.lower().encode(), value.encode()) for key, value in HEADERS.items())
+"""The same, as they are sent."""
+
 
 def application(
     given: Mapping[str, Any] | None,
@@ -74,7 +79,7 @@ def application(
     @asynccontextmanager
     async def lifespan(_app: Starlette) -> AsyncGenerator[None]:
         yield
-        workers.end()
+        await workers.close()
 
     async def page(request: Request) -> Response:
         name = request.path_params.get("name", "index.html")
@@ -93,7 +98,7 @@ def application(
         body = await _body(request, limits)
         task = Task(request.path_params["question"], body, question.seconds, question.quick)
         try:
-            workers.enter()
+            workers.enter(task)
         except TooBusyError as error:
             raise HTTPException(503, str(error), {"Retry-After": "1"}) from None
         return _Answer(workers, task, limits)
@@ -147,7 +152,8 @@ async def _body(request: Request, limits: Limits) -> Any:
     if _depth(whole) > limits.depth:
         raise HTTPException(400, f"the question is nested deeper than {limits.depth} levels")
     try:
-        body = json.loads(bytes(whole).decode("utf-8"), parse_constant=_no_number)
+        text = bytes(whole).decode("utf-8")
+        body = json.loads(text, parse_constant=_no_number, parse_float=_finite)
     except (ValueError, RecursionError):
         raise HTTPException(400, "the question is not JSON") from None
     if not isinstance(body, dict):
@@ -157,6 +163,11 @@ async def _body(request: Request, limits: Limits) -> Any:
 
 def _no_number(word: str) -> float:
     raise ValueError(word)
+
+
+def _finite(word: str) -> float:
+    found = float(word)
+    return found if math.isfinite(found) else _no_number(word)
 
 
 def _depth(text: bytearray) -> int:
@@ -185,7 +196,7 @@ class _Answer(Response):
         try:
             await asyncio.wait({saying, listening}, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            self._workers.leave()
+            self._workers.leave(self._task)
             for task in (saying, listening):
                 task.cancel()
             ended = await asyncio.gather(saying, listening, return_exceptions=True)
@@ -218,6 +229,7 @@ class _Guarded:
     def __init__(self, app: ASGIApp, hosts: frozenset[str]) -> None:
         self._app = app
         self._hosts = hosts
+        self._origins = frozenset(f"http://{host}" for host in hosts)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
@@ -229,8 +241,7 @@ class _Guarded:
         async def said(message: Message) -> None:
             if message["type"] == "http.response.start":
                 kept = [pair for pair in message["headers"] if pair[0] != b"server"]
-                own = [(key.lower().encode(), value.encode()) for key, value in HEADERS.items()]
-                message = {**message, "headers": [*kept, *own]}
+                message = {**message, "headers": [*kept, *OWN_HEADERS]}
             await send(message)
 
         refusal = self._refusal(scope)
@@ -240,14 +251,13 @@ class _Guarded:
             await self._app(scope, receive, said)
 
     def _refusal(self, scope: Scope) -> str | None:
-        headers = {
-            key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
-        }
-        if headers.get("host", "").lower() not in self._hosts:
+        # a header may come twice: each value has to be right
+        headers = Headers(scope=scope)
+        hosts = {host.lower() for host in headers.getlist("host")}
+        if not hosts or not hosts <= self._hosts:
             return "the studio is not asked for by this name"
-        origin = headers.get("origin")
-        if origin is not None and origin.lower() not in {f"http://{host}" for host in self._hosts}:
-            return "a page of somebody else's asks"
-        if headers.get("sec-fetch-site", "none") not in ("same-origin", "none"):
+        origins = {origin.lower() for origin in headers.getlist("origin")}
+        sites = set(headers.getlist("sec-fetch-site"))
+        if not origins <= self._origins or not sites <= {"same-origin", "none"}:
             return "a page of somebody else's asks"
         return None

@@ -28,7 +28,8 @@ class Limits:
         default=2, metadata={"unit": "long questions", "reason": "each has a process of its own"}
     )
     waiting: int = field(
-        default=16, metadata={"unit": "questions", "reason": "a page asks a few at a time"}
+        default=16,
+        metadata={"unit": "questions, quick or long", "reason": "a page asks a few at a time"},
     )
     memory: int = field(
         default=6 * 1024 * MEBIBYTE,

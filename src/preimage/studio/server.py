@@ -8,11 +8,12 @@ import webbrowser
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
+import h11
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
 from preimage.errors import InputError
-from preimage.studio.app import application
+from preimage.studio.app import OWN_HEADERS, application
 from preimage.studio.limits import Limits
 from preimage.studio.workers import Workers
 
@@ -85,7 +86,8 @@ def serve(
     ready : told the address once it can be asked for.
     """
     limits = limits or Limits()
-    app = application(given, hosts_of(listening), limits, Workers(limits))
+    workers = Workers(limits)
+    app = application(given, hosts_of(listening), limits, workers)
     address = address_of(listening)
     config = uvicorn.Config(
         app,
@@ -99,7 +101,7 @@ def serve(
         timeout_graceful_shutdown=1,
         h11_max_incomplete_event_size=16 * 1024,
     )
-    server = uvicorn.Server(config)
+    server = _Server(config, workers)
 
     async def serving() -> None:
         task = asyncio.create_task(server.serve(sockets=[listening]))
@@ -114,22 +116,41 @@ def serve(
     asyncio.run(serving())
 
 
+class _Server(uvicorn.Server):
+    """A server that ends its workers first, so that what they answer ends in time."""
+
+    def __init__(self, config: uvicorn.Config, workers: Workers) -> None:
+        super().__init__(config)
+        self._workers = workers
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """No question keeps it open."""
+        await self._workers.close()
+        await super().shutdown(sockets)
+
+
 def patient(limits: Limits) -> type[H11Protocol]:
     """Connections that must say what they want in time, and make room for new ones."""
     return type("Patient", (_Patient,), {"limits": limits, "idle": {}})
 
 
 class _Patient(H11Protocol):
-    """A connection of a server with limits."""
+    """A connection of a server with limits.
+
+    A whole head has to come within the limits' patience, and what is sent has to be taken away
+    within theirs; a body's time is the application's to keep. Whoever is waited for, for any of
+    the three, goes when there are too many.
+    """
 
     limits: ClassVar[Limits]
     idle: ClassVar[dict[_Patient, None]]
     """Who is waited for, the longest first."""
 
     _timer: asyncio.TimerHandle | None = None
+    _taking: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Make room: who has said nothing for longest goes."""
+        """Make room: who is waited for longest goes."""
         super().connection_made(transport)
         while len(self.connections) > self.limits.connections and self.idle:
             next(iter(self.idle))._abort()
@@ -139,16 +160,40 @@ class _Patient(H11Protocol):
             self._wait()
 
     def data_received(self, data: bytes) -> None:
-        """A whole head ends the waiting."""
+        """A whole head ends the patience, a whole body the waiting."""
         super().data_received(data)
         if self._is_asked():
-            self._stop_waiting()
+            self._be_patient(False)
+            if not self.cycle.more_body and self._taking is None:
+                self.idle.pop(self, None)
 
     def on_response_complete(self) -> None:
         """Wait for the next request."""
         super().on_response_complete()
         if not self.transport.is_closing() and not self._is_asked():
             self._wait()
+
+    def pause_writing(self) -> None:
+        """What is sent is not taken away: wait for that."""
+        super().pause_writing()
+        self.idle[self] = None
+        if self._taking is None:
+            self._taking = self.loop.call_later(self.limits.taking, self._abort)
+
+    def resume_writing(self) -> None:
+        """It was."""
+        super().resume_writing()
+        self._be_taken()
+        if self._is_asked() and not self.cycle.more_body:
+            self.idle.pop(self, None)
+
+    def send_400_response(self, msg: str) -> None:
+        """What is not HTTP is answered with the same headers as all else."""
+        headers = [(b"content-type", b"text/plain; charset=utf-8"), (b"connection", b"close")]
+        begin = h11.Response(status_code=400, headers=[*headers, *OWN_HEADERS])
+        for event in (begin, h11.Data(data=msg.encode()), h11.EndOfMessage()):
+            self.transport.write(self.conn.send(event) or b"")
+        self.transport.close()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Be forgotten."""
@@ -161,15 +206,24 @@ class _Patient(H11Protocol):
         return cycle is not None and not cycle.response_complete
 
     def _wait(self) -> None:
-        self._stop_waiting()
+        self.idle.pop(self, None)
         self.idle[self] = None
-        self._timer = self.loop.call_later(self.limits.patience, self._abort)
+        self._be_patient(True)
+
+    def _be_patient(self, again: bool) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+        self._timer = self.loop.call_later(self.limits.patience, self._abort) if again else None
+
+    def _be_taken(self) -> None:
+        if self._taking is not None:
+            self._taking.cancel()
+            self._taking = None
 
     def _stop_waiting(self) -> None:
         self.idle.pop(self, None)
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
+        self._be_patient(False)
+        self._be_taken()
 
     def _abort(self) -> None:
         self._stop_waiting()

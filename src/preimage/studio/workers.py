@@ -54,6 +54,8 @@ class Worker:
         self._limits = limits
         self._command = command
         self._process: asyncio.subprocess.Process | None = None
+        self._dying: list[asyncio.subprocess.Process] = []
+        self._over = False
 
     async def ask(self, task: Task) -> AsyncGenerator[bytes]:
         """What it says, line by line; the last line is an answer, a refusal, or what failed."""
@@ -69,6 +71,9 @@ class Worker:
             yield failed("the answer is too large")
 
     async def _said(self, task: Task) -> AsyncGenerator[bytes]:
+        if self._over:
+            yield failed("the studio has ended")
+            return
         process = await self._running()
         assert process.stdin is not None
         assert process.stdout is not None
@@ -101,8 +106,17 @@ class Worker:
     def end(self) -> None:
         """Kill it; the next question starts another."""
         process, self._process = self._process, None
-        if process is not None and process.returncode is None:
-            process.kill()
+        if process is not None:
+            # kills it, and lets go of its pipes and what is in them, which kill alone does not
+            process._transport.close()  # type: ignore[attr-defined]
+            self._dying = [one for one in self._dying if one.returncode is None] + [process]
+
+    async def close(self) -> None:
+        """Kill it, and see it gone; nothing is answered from then on."""
+        self._over = True
+        self.end()
+        for process in self._dying:
+            await process.wait()
 
 
 class Workers:
@@ -115,23 +129,23 @@ class Workers:
         self._free = [Worker(limits, command) for _ in range(limits.at_once)]
         self._places = asyncio.Semaphore(limits.at_once)
         self._all = [self._quick, *self._free]
-        self._waiting = 0
+        self._waiting = {True: 0, False: 0}
         self._finishing: set[asyncio.Task[None]] = set()
 
-    def enter(self) -> None:
-        """Take a place in the queue.
+    def enter(self, task: Task) -> None:
+        """Take a place in the queue: quick questions have one of their own.
 
         Raises
         ------
         TooBusyError : there is none.
         """
-        if self._waiting >= self._limits.waiting:
+        if self._waiting[task.quick] >= self._limits.waiting:
             raise TooBusyError("too many questions at once: try again")
-        self._waiting += 1
+        self._waiting[task.quick] += 1
 
-    def leave(self) -> None:
+    def leave(self, task: Task) -> None:
         """Give the place back."""
-        self._waiting -= 1
+        self._waiting[task.quick] -= 1
 
     async def ask(self, task: Task) -> AsyncGenerator[bytes]:
         """What is said to a question; who stops listening takes it back."""
@@ -172,9 +186,10 @@ class Workers:
                     worker.end()
                 self._free.append(worker)
 
-    def end(self) -> None:
-        """Kill them all."""
+    async def close(self) -> None:
+        """Kill them all, and see them gone."""
         for finishing in self._finishing:
             finishing.cancel()
+        await asyncio.gather(*self._finishing, return_exceptions=True)
         for worker in self._all:
-            worker.end()
+            await worker.close()

@@ -180,6 +180,8 @@ def test_nature_loses_unless_she_cheats(page: Page) -> None:
         page.keyboard.press("ArrowLeft")
         page.keyboard.press("d")
     expect(page.locator("#game-verdict")).to_contain_text("the plan has won", timeout=60_000)
+    expect(page.locator("#game-truth")).to_have_text("In truth it is in the goal.")
+    expect(page.locator("#game-score")).to_contain_text("Left alone it takes")
     shot(page, "play")
     page.select_option("#game-cheat", "3")
     page.evaluate(
@@ -189,6 +191,83 @@ def test_nature_loses_unless_she_cheats(page: Page) -> None:
     page.click("#game-begin")
     expect(page.locator("#game-verdict")).to_contain_text("After", timeout=60_000)
     expect(page.locator("#game-verdict")).not_to_contain_text("the plan has won")
+
+
+def test_motions_are_named_in_the_picture_whatever_was_looked_at_before(page: Page) -> None:
+    plan(page)
+    names = page.locator("[data-layer=labels] .label")
+    expect(names).to_have_text(["P2", "P1"])
+    places = [box for box in (one.bounding_box() for one in names.all()) if box is not None]
+    assert abs(places[0]["x"] - places[1]["x"]) > 20 or abs(places[0]["y"] - places[1]["y"]) > 14
+    expect(page.locator(".motion").first).to_contain_text("then it is in P2")
+    page.click("#tab-layers")
+    expect(names).to_have_count(0)
+    assert page.locator("#graph .link.used").count() == 2
+    page.click("#tab-plan")
+    expect(names).to_have_text(["P2", "P1"])
+
+
+def test_a_conditional_plan_is_looked_at(page: Page) -> None:
+    page.click("#gallery-open")
+    page.click("[data-example=two-bays]")
+    expect(page.locator("#name")).to_have_value("two-bays")
+    plan(page)
+    page.click("#tab-layers")
+    assert page.locator("#graph .node").count() >= 3
+    expect(page.locator("[data-layer=backprojection] .area")).to_have_count(1)
+    page.click("#tab-run")
+    expect(page.locator("#run-says")).not_to_contain_text("-1")
+
+
+def test_a_start_is_typed_and_a_wrong_one_is_refused(page: Page) -> None:
+    plan(page)
+    page.click("#tab-run")
+    expect(page.locator("#run-control-words")).to_contain_text("makes for where")
+    page.fill("#run-x", "8")
+    page.fill("#run-y", "8")
+    page.keyboard.press("Tab")
+    expect(page.locator("#run-outcome")).to_contain_text("is not where the plan begins")
+    assert page.locator("[data-layer=trace] .way").count() == 0
+    page.fill("#run-x", "-6")
+    page.fill("#run-y", "1")
+    page.keyboard.press("Tab")
+    way = page.locator("[data-layer=trace] .way").first
+    expect(way).to_have_attribute("d", re.compile(r"^M-6 1L"))
+
+
+def test_a_game_that_is_left_leaves_nothing(page: Page) -> None:
+    plan(page)
+    page.click("#tab-play")
+    page.click("#game-begin")
+    expect(page.locator("[data-layer=reading] .believed").first).to_be_attached()
+    page.click("#tab-why")
+    expect(page.locator("[data-layer=reading] *")).to_have_count(0)
+    page.wait_for_timeout(300)
+    assert page.locator("[data-layer=reading] *").count() == 0
+    assert page.locator("[data-layer=target] *").count() == 0
+
+
+def test_without_a_position_sensor_there_is_none_to_fool(page: Page) -> None:
+    page.click("#gallery-open")
+    page.click("[data-example=blind-corner]")
+    expect(page.locator("#name")).to_have_value("blind-corner")
+    plan(page)
+    page.click("#tab-play")
+    expect(page.locator("#game-pad")).to_be_hidden()
+    page.click("#game-begin")
+    expect(page.locator("#game-says")).to_contain_text("no position")
+    page.click("#tab-run")
+    expect(page.locator("#run-says")).to_contain_text("It reads no position")
+
+
+def test_tools_are_chosen_by_arrow_keys(page: Page) -> None:
+    page.focus("#tool-select")
+    page.keyboard.press("ArrowDown")
+    expect(page.locator("#tool-polygon")).to_be_focused()
+    expect(page.locator("#tool-polygon")).to_have_attribute("aria-checked", "true")
+    assert page.locator("#tools [tabindex='0']").count() == 1
+    page.keyboard.press("ArrowUp")
+    expect(page.locator("#tool-select")).to_have_attribute("aria-checked", "true")
 
 
 def test_why_points_into_the_picture_and_a_budget_sets_a_bound(page: Page) -> None:
@@ -207,6 +286,8 @@ def test_why_points_into_the_picture_and_a_budget_sets_a_bound(page: Page) -> No
     expect(page.locator(".bar")).to_have_count(1, timeout=120_000)
     expect(page.locator("#budget-result")).to_contain_text("19.95")
     shot(page, "budget")
+    page.locator("#budget-result .steps button").first.click()
+    assert 0 < float(page.input_value("#bound-control")) < 22
 
 
 def test_planning_is_taken_back_and_the_page_goes_on(page: Page) -> None:

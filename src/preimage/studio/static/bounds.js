@@ -2,7 +2,7 @@
 
 import { html } from "./svg.js";
 
-const force = (task) => (typeof task.uncertainty.force === "object" && task.uncertainty.force ? task.uncertainty.force : null);
+const force = ({ uncertainty }) => (typeof uncertainty.force === "object" ? uncertainty.force : null);
 
 const threshold = (task, place) => {
   const value = force(task)?.threshold;
@@ -19,19 +19,27 @@ const BOUNDS = [
     get: (task) => task.uncertainty.control, set: (task, value) => { task.uncertainty.control = value; },
   },
   {
-    key: "position", words: "position ±", most: (task) => (task.window[2] - task.window[0]) / 10, step: null, sensor: "position sensor",
+    key: "position", words: "position ±", step: null, sensor: "position sensor",
+    most: (task) => (task.window[2] - task.window[0]) / 10,
     get: (task) => task.uncertainty.position, set: (task, value) => { task.uncertainty.position = value; },
-    off: (task) => { task.uncertainty.position = "inf"; }, on: (task) => { task.uncertainty.position = (task.window[2] - task.window[0]) / 100; },
+    off: (task) => { task.uncertainty.position = "inf"; }, on: (task) => {
+      task.uncertainty.position = (task.window[2] - task.window[0]) / 100;
+    },
   },
   {
     key: "force-angle", words: "force ± °", most: () => 90, step: 0.5, sensor: "force sensor",
     get: (task) => force(task)?.angle, set: (task, value) => { force(task).angle = value; },
-    off: (task) => { task.uncertainty.force = "none"; }, on: (task) => { task.uncertainty.force = { angle: 10, threshold: 0.05 }; },
+    off: (task) => { task.uncertainty.force = "none"; }, on: (task) => {
+      task.uncertainty.force = { angle: 10, threshold: 0.05 };
+    },
   },
   {
     key: "force-threshold", words: "read as none to", most: () => 1, step: 0.01,
     get: (task) => threshold(task, 0),
-    set: (task, value) => { const f = force(task); f.threshold = Array.isArray(f.threshold) ? [value, Math.max(value, f.threshold[1])] : value; },
+    set: (task, value) => {
+      const f = force(task);
+      f.threshold = Array.isArray(f.threshold) ? [value, Math.max(value, f.threshold[1])] : value;
+    },
   },
   {
     key: "friction", words: "friction °", most: () => 89, step: 0.5,
@@ -43,9 +51,17 @@ const CHOICES = {
   sliding: { words: "sliding law", in: (task) => task, options: ["projection", "damper"] },
   method: { words: "method", in: (task) => task.planner, options: ["combined", "kernel", "sticking"] },
   strategy: { words: "strategy", in: (task) => task.planner, options: ["linear", "conditional"] },
-  termination: { words: "conditions", in: (task) => task.planner, options: ["instantaneous", "initial-state", "final-state"] },
-  search: { words: "search", in: (task) => task.planner, options: ["breadth-first", "best-first", "led"], usual: "breadth-first" },
-  prefer: { words: "prefer", in: (task) => task.planner, options: ["shortest", "margin"], usual: "shortest" },
+  termination: {
+    words: "conditions", in: (task) => task.planner,
+    options: ["instantaneous", "initial-state", "final-state"],
+  },
+  search: {
+    words: "search", in: (task) => task.planner, options: ["breadth-first", "best-first", "led"],
+    usual: "breadth-first",
+  },
+  prefer: {
+    words: "prefer", in: (task) => task.planner, options: ["shortest", "margin"], usual: "shortest",
+  },
 };
 
 export function mount({ store }) {
@@ -66,15 +82,28 @@ export function mount({ store }) {
 
 function boundRow(panel, store, { key, words, most, step, get, set, sensor, off, on }) {
   const change = (value, gesture = null) =>
-    Number.isFinite(value) && value >= 0 && store.edit(words, (task) => set(task, Number(value.toPrecision(6))), gesture);
+    Number.isFinite(value) && value >= 0 && store.edit(
+      words, (task) => set(task, Number(value.toPrecision(6))), gesture,
+    );
   let gesture = null;
   const slider = html("input", {
     type: "range", id: `slider-${key}`, min: 0, "aria-label": words,
-    onpointerdown: () => { gesture = Symbol(key); }, oninput: () => change(slider.valueAsNumber, gesture ?? `slider ${key}`),
+    onpointerdown: () => { gesture = Symbol(key); }, oninput: () => change(
+      slider.valueAsNumber, gesture ?? `slider ${key}`,
+    ),
   });
-  const number = html("input", { type: "number", id: `bound-${key}`, min: 0, step: "any", "aria-label": `${words}, a number`, onchange: () => change(number.valueAsNumber) });
+  const number = html(
+    "input",
+    {
+      type: "number", id: `bound-${key}`, min: 0, step: "any", "aria-label": `${words}, a number`,
+      onchange: () => change(number.valueAsNumber),
+    },
+  );
   panel.append(html("div", { class: "bound" }, html("span", {}, words), slider, number));
-  const has = sensor && html("input", { type: "checkbox", id: `has-${key}`, onchange: () => store.edit(sensor, has.checked ? on : off) });
+  const has = sensor && html(
+    "input",
+    { type: "checkbox", id: `has-${key}`, onchange: () => store.edit(sensor, has.checked ? on : off) },
+  );
   if (has) panel.append(html("label", { class: "check", style: null }, has, `there is a ${sensor}`));
   return (task) => {
     const value = get(task);
@@ -102,11 +131,22 @@ function choiceRow(panel, store, key, { words, in: home, options, usual }) {
 function directionsRow(panel, store) {
   const input = html("input", {
     id: "directions", "aria-describedby": "directions-help",
-    onchange: () => store.edit("directions", (task) => { task.planner.directions = directionsOf(input.value, task.planner.directions); }),
+    onchange: () => store.edit(
+      "directions",
+      (task) => { task.planner.directions = directionsOf(input.value, task.planner.directions); },
+    ),
   });
   panel.append(html("label", { class: "field" }, "directions", input));
-  panel.append(html("p", { id: "directions-help", class: "faded" }, "a number all round, a list of degrees, or “continuous”"));
-  return (task) => { input.value = Array.isArray(task.planner.directions) ? task.planner.directions.join(", ") : `${task.planner.directions}`; };
+  panel.append(
+    html(
+      "p", { id: "directions-help", class: "faded" },
+      "a number all round, a list of degrees, or “continuous”",
+    ),
+  );
+  return (task) => {
+    const { directions } = task.planner;
+    input.value = Array.isArray(directions) ? directions.join(", ") : `${directions}`;
+  };
 }
 
 /** What somebody typed as directions; what it was if that is nothing. */
@@ -126,5 +166,7 @@ function numberRow(panel, store, key, words, attributes, usual) {
     }),
   });
   panel.append(html("label", { class: "field" }, words, input));
-  return (task) => { if (document.activeElement !== input) input.value = task.planner[key] ?? usual ?? ""; };
+  return (task) => {
+    if (document.activeElement !== input) input.value = task.planner[key] ?? usual ?? "";
+  };
 }

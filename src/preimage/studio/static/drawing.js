@@ -1,24 +1,26 @@
 // The task as it is drawn: workspace, configuration space, goal, start, robot, the plan's regions.
 
 import { Latest, Refusal } from "./ask.js";
+import { labelPlaces, spread } from "./labels.js";
 import { areaPath, dot, linePath, regionElements, segmentsPath, svg, unit } from "./svg.js";
 
 const GRID_PIXELS = 56;
 
-/** Colours of the motions, the last one first. */
-export const MOTION_COLOURS = ["#0072b2", "#2b7a9e", "#00734f", "#a2477a", "#8a5a00", "#6a4c93"];
+/** Colours of the motions, the last one first; drawing.css says which. */
+export const MOTION_COLOURS = [1, 2, 3, 4, 5, 6].map((number) => `var(--motion-${number})`);
 
 export function mount({ store, view }) {
   keepSpace(store);
   store.on("space", (space) => space && drawSpace(view, space));
   store.on("space", (space) => space && fitOnce(store, view, space));
   for (const key of ["plan", "space", "tab"]) store.on(key, () => drawPlan(store, view));
+  store.on("labels", () => drawLabels(store, view));
   store.on("highlight", (regions) => {
     const shown = [regions ?? []].flat();
     view.draw("target", ...shown.flatMap((region) => regionElements(region, "highlight", 5)));
   });
   store.on("refusal", showRefusal);
-  view.addEventListener("changed", () => drawGrid(view));
+  view.addEventListener("changed", () => { drawGrid(view); drawLabels(store, view); });
   wireOverlay(store, view);
 }
 
@@ -71,12 +73,19 @@ export function drawSpace(view, space) {
   const box = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
   view.draw("ground", svg("path", { class: "ground-free", d: `${linePath(box)}Z` }));
   view.draw("workspace", svg("path", { class: "solid area", d: areaPath(space.solid) }));
-  view.draw("space", svg("path", { class: "c-obstacle area", d: areaPath(space.obstacles), "data-role": "c-obstacle" }));
-  const sides = { left: [x0, y0, x0, y1], right: [x1, y0, x1, y1], bottom: [x0, y0, x1, y0], top: [x0, y1, x1, y1] };
+  view.draw(
+    "space",
+    svg("path", { class: "c-obstacle area", d: areaPath(space.obstacles), "data-role": "c-obstacle" }),
+  );
+  const sides = {
+    left: [x0, y0, x0, y1], right: [x1, y0, x1, y1], bottom: [x0, y0, x1, y0], top: [x0, y1, x1, y1],
+  };
   drawGrid(view);
   view.layer("space").append(
     svg("path", { class: "side", d: segmentsPath(space.open) }),
-    ...space.task.walls.map((side) => svg("path", { class: "side wall", d: segmentsPath([sides[side]]) })),
+    ...space.task.walls.map(
+      (side) => svg("path", { class: "side wall", d: segmentsPath([sides[side]]) }),
+    ),
   );
   const { start } = space;
   const outline = start.outline && svg("path", { class: "start area", d: `${linePath(start.outline)}Z` });
@@ -88,7 +97,9 @@ export function drawSpace(view, space) {
 /** A place of the start that stands for it. */
 export function anchor({ start, goal }) {
   const ring = start.outline ?? start.area[0]?.[0];
-  if (ring) return ring.reduce(([x, y], point) => [x + point[0] / ring.length, y + point[1] / ring.length], [0, 0]);
+  if (ring) return ring.reduce(
+    ([x, y], point) => [x + point[0] / ring.length, y + point[1] / ring.length], [0, 0],
+  );
   if (start.vertices.length) return start.vertices[0];
   const edge = start.edges[0] ?? goal.edges[0];
   return edge ? [(edge[0] + edge[2]) / 2, (edge[1] + edge[3]) / 2] : [0, 0];
@@ -108,8 +119,9 @@ function drawGrid(view) {
   const [left, bottom] = view.fromPixel([0, view.element.clientHeight]);
   const [right, top] = view.fromPixel([view.element.clientWidth, 0]);
   const lines = [];
-  for (let x = Math.ceil(left / step) * step; x < right && lines.length < 400; x += step) lines.push([x, bottom, x, top]);
-  for (let y = Math.ceil(bottom / step) * step; y < top && lines.length < 800; y += step) lines.push([left, y, right, y]);
+  const first = (low) => Math.ceil(low / step) * step;
+  for (let x = first(left); x < right && lines.length < 400; x += step) lines.push([x, bottom, x, top]);
+  for (let y = first(bottom); y < top && lines.length < 800; y += step) lines.push([left, y, right, y]);
   view.draw("grid", svg("path", { class: "grid-line", d: segmentsPath(lines) }));
 }
 
@@ -130,38 +142,54 @@ export function fineStep(view) {
 /** The regions of the plan by motion, each with its number and its direction. */
 function drawPlan(store, view) {
   const [plan, tab] = [store.get("plan"), store.get("tab")];
-  const labels = [];
-  const shapes = [];
-  if (plan && ["plan", "run", "play", "task"].includes(tab)) {
-    const moving = plan.regions.filter((region) => region.direction !== null);
-    moving.forEach((region, place) => {
-      const colour = MOTION_COLOURS[(region.rank - 1) % MOTION_COLOURS.length];
-      for (const element of regionElements(region.region, "preimage")) {
-        if (element.classList.contains("area")) element.style.setProperty("fill", colour, "important");
-        element.style.stroke = colour;
-        element.dataset.region = region.id;
-        shapes.push(element);
-      }
-      const at = insideOf(region.region);
-      const number = plan.linear && plan.steps.length ? plan.steps.indexOf(region.id) + 1 : region.id;
-      if (at) labels.push({ at, words: plan.linear && number ? `P${number}` : `${region.id}`, direction: region.direction, colour, place });
+  const seen = plan && ["plan", "run", "play", "task"].includes(tab);
+  const moving = seen ? plan.regions.filter(({ direction }) => direction !== null) : [];
+  const shapes = moving.flatMap((region) => {
+    const colour = motionColour(region.rank);
+    return regionElements(region.region, "preimage").map((element) => {
+      if (element.classList.contains("area")) element.style.setProperty("fill", colour, "important");
+      element.style.stroke = colour;
+      element.dataset.region = region.id;
+      return element;
     });
-  }
+  });
+  const places = labelPlaces(moving.map(({ region }) => region));
+  const labels = moving.map((region, place) => ({
+    at: places[place], words: nameOf(plan, region.id), direction: region.direction,
+    colour: motionColour(region.rank),
+  }));
   view.draw("preimages", ...shapes);
-  store.set("labels", labels);
-  drawLabels(store, view);
-  if (!store.get("labelled")) {
-    store.set("labelled", true);
-    view.addEventListener("changed", () => drawLabels(store, view));
-  }
+  store.set("labels", labels.filter(({ at }) => at));
+}
+
+/** The colour of a motion after which so many are left. */
+export const motionColour = (rank) => MOTION_COLOURS[(Math.max(1, rank) - 1) % MOTION_COLOURS.length];
+
+/** What a region of a plan is called: by its motion's number where they come one after another. */
+export function nameOf(plan, id) {
+  if (id === 0) return "the goal";
+  const number = plan.linear ? plan.steps.indexOf(id) + 1 : 0;
+  return number ? `P${number}` : `${id}`;
+}
+
+/** A region's name in a sentence. */
+export function spokenName(plan, id) {
+  const name = nameOf(plan, id);
+  return /^\d/.test(name) ? `region ${name}` : name;
 }
 
 function drawLabels(store, view) {
-  const drawn = (store.get("labels") ?? []).flatMap(({ at, words, direction, colour }) => {
-    const [x, y] = view.toPixel(at);
+  const labels = store.get("labels") ?? [];
+  const places = spread(labels.map(({ at }) => view.toPixel(at)));
+  const drawn = labels.flatMap(({ words, direction, colour }, place) => {
+    const [x, y] = places[place];
     const [dx, dy] = unit(direction);
     const tip = [x + 26 * dx, y - 26 * dy];
-    const head = [[tip[0], tip[1]], [tip[0] - 9 * dx - 5 * dy, tip[1] + 9 * dy - 5 * dx], [tip[0] - 9 * dx + 5 * dy, tip[1] + 9 * dy + 5 * dx]];
+    const head = [
+      tip,
+      [tip[0] - 9 * dx - 5 * dy, tip[1] + 9 * dy - 5 * dx],
+      [tip[0] - 9 * dx + 5 * dy, tip[1] + 9 * dy + 5 * dx],
+    ];
     const arrow = svg("path", { class: "arrow", d: `M${x} ${y}L${tip[0]} ${tip[1]}` });
     const end = svg("path", { class: "arrow-head", d: `${linePath(head)}Z` });
     arrow.style.stroke = colour;
@@ -171,32 +199,6 @@ function drawLabels(store, view) {
     return [arrow, end, text];
   });
   view.draw("labels", ...drawn);
-}
-
-/** A point well inside a region, or on its contact. */
-function insideOf(region) {
-  const ring = region.area.map(([outer]) => outer).sort((a, b) => Math.abs(sizeOf(b)) - Math.abs(sizeOf(a)))[0];
-  if (ring) return centroid(ring);
-  const [edge] = region.edges;
-  if (edge) return [(edge[0] + edge[2]) / 2, (edge[1] + edge[3]) / 2];
-  return region.vertices[0] ?? null;
-}
-
-function sizeOf(ring) {
-  return ring.reduce((sum, [x, y], place) => {
-    const [u, v] = ring[(place + 1) % ring.length];
-    return sum + (x * v - u * y) / 2;
-  }, 0);
-}
-
-function centroid(ring) {
-  const size = sizeOf(ring);
-  const sums = ring.reduce(([cx, cy], [x, y], place) => {
-    const [u, v] = ring[(place + 1) % ring.length];
-    const cross = (x * v - u * y) / (6 * size);
-    return [cx + (x + u) * cross, cy + (y + v) * cross];
-  }, [0, 0]);
-  return sums;
 }
 
 function wireOverlay(store, view) {
@@ -221,7 +223,9 @@ function mirrorOf(view, element) {
   const copy = () => {
     waiting = false;
     const plane = view.plane.cloneNode(true);
-    for (const name of ["workspace", "handles", "robot"]) plane.querySelector(`[data-layer=${name}]`).replaceChildren();
+    for (const name of ["workspace", "handles", "robot"]) {
+      plane.querySelector(`[data-layer=${name}]`).replaceChildren();
+    }
     element.replaceChildren(plane);
   };
   const observer = new MutationObserver(() => {

@@ -2,36 +2,15 @@
 
 import { anchor, gridStep } from "./drawing.js";
 import { mountObjects } from "./objects.js";
-import { BLANK, insertVertex, moveBy, removeShape, removeVertex, shapesOf, tidy } from "./shapes.js";
-import { projected, snapped } from "./snap.js";
-import { html, linePath, svg } from "./svg.js";
+import {
+  BLANK, insertVertex, moveBy, removeShape, removeVertex, shapesOf, tidy, wholeOf,
+} from "./shapes.js";
+import { edgeAt, projected, snapped } from "./snap.js";
+import { linePath, svg } from "./svg.js";
+import { TOOLS, boxOf, mountTools } from "./tools.js";
 
-/** The tools: what each is called, how many points it takes, and what it makes of them. */
-export const TOOLS = {
-  select: { words: "Select, move", points: 0 },
-  polygon: { words: "Obstacle", points: Infinity, least: 3, make: (task, points) => task.obstacles.push({ polygon: points, holes: [] }) },
-  rectangle: { words: "Rectangle", points: 2, make: (task, points) => task.obstacles.push({ polygon: boxOf(points), holes: [] }) },
-  chain: { words: "Chain", points: Infinity, least: 2, make: (task, points) => task.obstacles.push({ chain: points, solid: "right" }) },
-  hole: { words: "Hole", points: Infinity, least: 3, make: addHole },
-  robot: { words: "Robot", points: Infinity, least: 3, make: (task, points, { start }) => { task.robot = { polygon: points.map(([x, y]) => [tidy(x - start[0]), tidy(y - start[1])]), reference: [0, 0] }; } },
-  "goal-edge": { words: "Goal edge", points: 2, contact: true, make: (task, points) => task.goal.edges.push(points) },
-  "goal-area": { words: "Goal area", points: Infinity, least: 3, make: (task, points) => task.goal.polygons.push(points) },
-  "goal-point": { words: "Goal corner", points: 1, contact: true, make: (task, points) => task.goal.points.push(points[0]) },
-  "start-point": { words: "Start point", points: 1, make: (task, points) => { task.initial = { point: points[0] }; } },
-  "start-disc": { words: "Start disc", points: 2, make: (task, [center, rim]) => { task.initial = { disc: { center, radius: tidy(Math.hypot(rim[0] - center[0], rim[1] - center[1])) } }; } },
-  "start-area": { words: "Start area", points: Infinity, least: 3, make: (task, points) => { task.initial = { polygon: points }; } },
-};
-
-function boxOf([[x0, y0], [x1, y1]]) {
-  const [left, right, low, high] = [Math.min(x0, x1), Math.max(x0, x1), Math.min(y0, y1), Math.max(y0, y1)];
-  return [[left, low], [right, low], [right, high], [left, high]];
-}
-
-function addHole(task, points, { selected }) {
-  const place = selected?.startsWith("obstacles.") ? Number(selected.split(".")[1]) : 0;
-  const obstacle = task.obstacles[place];
-  if (obstacle?.polygon) (obstacle.holes ??= []).push(points);
-}
+const STILL_PIXELS = 4;
+const DOUBLE_MS = 400;
 
 export function mount({ store, view }) {
   new Editor(store, view).mount();
@@ -39,14 +18,14 @@ export function mount({ store, view }) {
 
 class Editor {
   constructor(store, view) {
-    Object.assign(this, { store, view, draft: [], drag: null, pointers: new Map() });
+    Object.assign(this, { store, view, draft: [], drag: null, finished: -Infinity, pointers: new Map() });
   }
 
   mount() {
     const { store, view } = this;
     store.set("tool", "select");
     store.set("snap", true);
-    this.mountTools();
+    mountTools(store, () => { this.draft = []; this.drawDraft(); });
     mountObjects(this);
     store.on("task", () => this.draw());
     store.on("space", () => this.draw());
@@ -56,30 +35,15 @@ class Editor {
     const { element } = view;
     element.addEventListener("pointerdown", (event) => this.down(event));
     element.addEventListener("pointermove", (event) => this.move(event));
-    for (const kind of ["pointerup", "pointercancel"]) element.addEventListener(kind, (event) => this.up(event));
+    for (const kind of ["pointerup", "pointercancel"]) element.addEventListener(
+      kind, (event) => this.up(event),
+    );
     element.addEventListener("dblclick", (event) => this.doubled(event));
     document.addEventListener("keydown", (event) => this.key(event));
     store.on("history", (history) => this.showHistory(history));
     document.getElementById("undo").onclick = () => store.undo();
     document.getElementById("redo").onclick = () => store.redo();
     document.getElementById("new").onclick = () => store.open(BLANK, { undoable: true });
-  }
-
-  mountTools() {
-    const { store } = this;
-    const box = document.getElementById("tools");
-    for (const [name, tool] of Object.entries(TOOLS)) {
-      box.append(html("button", { type: "button", role: "radio", id: `tool-${name}`, onclick: () => store.set("tool", name) }, tool.words));
-    }
-    store.on("tool", (chosen) => {
-      this.draft = [];
-      this.drawDraft();
-      for (const button of box.children) button.setAttribute("aria-checked", button.id === `tool-${chosen}`);
-      const { points } = TOOLS[chosen];
-      if (points) store.set("announce", points === Infinity ? "Click the corners; Enter or a double click ends." : `Click ${points === 1 ? "once" : "twice"}.`);
-    });
-    const snap = html("input", { type: "checkbox", id: "snap", checked: true, onchange: () => store.set("snap", snap.checked) });
-    document.getElementById("snapping").append(html("label", { class: "check" }, snap, "Snap (Alt: not)"));
   }
 
   showHistory({ undo, redo }) {
@@ -117,14 +81,22 @@ class Editor {
     const where = this.store.get("refusal")?.where ?? "";
     const elements = [];
     for (const shape of this.shapes) {
-      const classes = ["shape", shape.closed && "closed", chosen?.shape.id === shape.id && "selected", refused(where, shape) && "refused"];
-      const d = shape.points.length > 1 ? linePath(shape.points) + (shape.closed ? "Z" : "") : `M${shape.points[0]}l0 0`;
+      const classes = [
+        "shape", shape.closed && "closed", chosen?.shape.id === shape.id && "selected",
+        refused(where, shape) && "refused",
+      ];
+      const line = linePath(shape.points) + (shape.closed ? "Z" : "");
+      const d = shape.points.length > 1 ? line : `M${shape.points[0]}l0 0`;
       elements.push(svg("path", { class: classes.filter(Boolean).join(" "), d, "data-shape": shape.id }));
     }
-    for (const shape of this.shapes) if (chosen?.shape.id === shape.id || shape.points.length === 1) elements.push(...this.handlesOf(shape, chosen));
+    for (const shape of this.shapes) if (
+      chosen?.shape.id === shape.id || shape.points.length === 1
+    ) elements.push(...this.handlesOf(shape, chosen));
     const focused = document.activeElement?.dataset?.handle;
     this.view.draw("handles", ...elements);
-    if (focused) this.view.layer("handles").querySelector(`[data-handle="${focused}"]`)?.focus({ preventScroll: true });
+    if (focused) this.view.layer("handles").querySelector(
+      `[data-handle="${focused}"]`,
+    )?.focus({ preventScroll: true });
   }
 
   handlesOf(shape, chosen) {
@@ -137,7 +109,9 @@ class Editor {
     }));
   }
 
-  drawDraft(mark = null) {
+  drawDraft(to = null) {
+    const mark = to?.to ? to.point : null;
+    const guides = to?.guides ?? [];
     const line = this.hover ? [...this.draft, this.hover] : this.draft;
     const tool = this.store.get("tool");
     const points = tool === "rectangle" && line.length === 2 ? [...boxOf(line), boxOf(line)[0]] : line;
@@ -145,6 +119,7 @@ class Editor {
     const cross = mark && `M${mark[0] - reach} ${mark[1]}h${2 * reach}M${mark[0]} ${mark[1] - reach}v${2 * reach}`;
     this.view.draw("reading",
       ...(points.length > 1 ? [svg("path", { class: "draft", d: linePath(points) })] : []),
+      ...guides.map((guide) => svg("path", { class: "snap-mark guide", d: linePath(guide) })),
       ...(cross ? [svg("path", { class: "snap-mark", d: cross })] : []));
   }
 
@@ -162,7 +137,10 @@ class Editor {
     if (shape && event.button === 0) {
       const place = vertex === undefined ? null : Number(vertex);
       this.select(shape, place);
-      this.drag = { kind: "shape", from, gesture: Symbol("drag"), points: this.selected.shape.points, place };
+      this.drag = {
+        kind: "shape", from, gesture: Symbol("drag"), points: this.selected.shape.points, place,
+        pressed: [event.clientX, event.clientY],
+      };
     } else {
       if (event.button === 0) this.select(null);
       this.drag = { kind: "pan", from: [event.clientX, event.clientY] };
@@ -178,12 +156,24 @@ class Editor {
       const [x, y] = this.drag.from;
       this.view.pan(-(event.clientX - x) * this.view.scale, (event.clientY - y) * this.view.scale);
       this.drag.from = [event.clientX, event.clientY];
-    } else if (this.drag?.kind === "shape") this.dragged(point, event.altKey);
+    } else if (this.drag?.kind === "shape") {
+      if (!this.still(event)) this.dragged(point, event.altKey);
+    }
     else if (TOOLS[this.store.get("tool")].points) {
       const to = this.snap(point, event.altKey);
       this.hover = to.point;
-      this.drawDraft(to.to && to.point);
+      this.drawDraft(to);
     }
+  }
+
+  /** Whether what was pressed has hardly moved yet: who only selects does not move anything. */
+  still(event) {
+    const { pressed } = this.drag;
+    if (
+      pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < STILL_PIXELS
+    ) return true;
+    this.drag.pressed = null;
+    return false;
   }
 
   dragged(point, off) {
@@ -192,16 +182,21 @@ class Editor {
     const chosen = this.selected;
     if (!chosen) return;
     store.set("dragging", true);
-    const contact = chosen.shape.id.startsWith("goal.edges") || chosen.shape.id.startsWith("initial.edges") || chosen.shape.id.startsWith("goal.points");
-    const others = this.shapes.filter(({ id }) => id !== chosen.shape.id && !id.startsWith("robot")).flatMap((shape) => shape.points);
+    const contact = /^(goal\.edges|initial\.edges|goal\.points)/.test(chosen.shape.id);
+    const others = this.shapes.filter(
+      ({ id }) => id !== chosen.shape.id && !id.startsWith("robot"),
+    ).flatMap((shape) => shape.points);
+    const levels = place === null ? others : [...others, ...points.filter((_, other) => other !== place)];
     const held = points[place ?? 0];
     const wanted = [held[0] + point[0] - from[0], held[1] + point[1] - from[1]];
-    const to = snapped(wanted, this.view, store, { contact: contact && place !== null, others, off });
-    const paths = place === null ? chosen.shape.paths : [chosen.shape.paths[place]];
+    const to = snapped(
+      wanted, this.view, store, { contact: contact && place !== null, others, levels, off },
+    );
+    const paths = place === null ? wholeOf(store.get("task"), chosen.shape) : [chosen.shape.paths[place]];
     const present = chosen.shape.points[place ?? 0];
     const by = [to.point[0] - present[0], to.point[1] - present[1]];
     store.edit(`move ${chosen.shape.label}`, (task) => moveBy(task, paths, by), gesture);
-    this.drawDraft(to.to && to.point);
+    this.drawDraft(to);
   }
 
   up(event) {
@@ -228,23 +223,36 @@ class Editor {
 
   snap(point, off) {
     const { contact = false } = TOOLS[this.store.get("tool")];
-    return snapped(point, this.view, this.store, { contact, off, others: [...this.draft, ...this.shapes.flatMap(({ points }) => points)] });
+    return snapped(
+      point, this.view, this.store,
+      { contact, off, others: [...this.draft, ...this.shapes.flatMap(({ points }) => points)] },
+    );
   }
 
   click(event) {
     const tool = TOOLS[this.store.get("tool")];
-    const { point } = this.snap(this.view.at(event), event.altKey);
+    const to = this.snap(this.view.at(event), event.altKey);
+    const { point } = to;
     const last = this.draft.at(-1);
-    if (last && last[0] === point[0] && last[1] === point[1]) return;
+    if (last && last[0] === tidy(point[0]) && last[1] === tidy(point[1])) {
+      const edge = tool.contact && tool.points === 2 ? edgeAt(point, this.view, this.store) : null;
+      if (!edge) return;
+      this.draft = [edge.from, edge.to].map((end) => end.map(tidy)); // twice on an edge: all of it
+      return this.finish(event);
+    }
     const first = this.draft[0];
-    if (tool.points === Infinity && first && this.draft.length >= tool.least && first[0] === point[0] && first[1] === point[1]) return this.finish();
+    if (
+      tool.points === Infinity && first && this.draft.length >= tool.least
+      && first[0] === tidy(point[0]) && first[1] === tidy(point[1])
+    ) return this.finish(event);
     this.draft.push(point.map(tidy));
-    this.drawDraft(point);
-    if (this.draft.length >= tool.points) this.finish();
+    this.drawDraft(to);
+    if (this.draft.length >= tool.points) this.finish(event);
   }
 
-  finish() {
+  finish(event = null) {
     const { store } = this;
+    this.finished = event?.timeStamp ?? -Infinity;
     const name = store.get("tool");
     const { make, least = 1, words } = TOOLS[name];
     const points = this.draft;
@@ -260,6 +268,7 @@ class Editor {
     if (this.store.get("tool") !== "select") return this.draft.length && this.finish();
     const chosen = this.selected;
     if (!chosen || event.target.dataset?.vertex !== undefined) return;
+    if (event.timeStamp - this.finished < DOUBLE_MS) return; // the double click that ended a drawing
     const point = this.view.at(event);
     const { shape } = chosen;
     let [best, least] = [0, Infinity];
@@ -269,7 +278,9 @@ class Editor {
       const away = Math.hypot(on[0] - point[0], on[1] - point[1]);
       if (away < least) [best, least] = [place, away];
     });
-    if (least < 12 * this.view.scale) this.store.edit("insert a vertex", (task) => void insertVertex(task, shape, best, point));
+    if (least < 12 * this.view.scale) this.store.edit(
+      "insert a vertex", (task) => void insertVertex(task, shape, best, point),
+    );
   }
 
   // --- keys ------------------------------------------------------------------------------------
@@ -277,20 +288,32 @@ class Editor {
   key(event) {
     const typing = event.target.matches?.("input, select, textarea") || document.querySelector("dialog[open]");
     const control = event.ctrlKey || event.metaKey;
-    if (control && event.key.toLowerCase() === "z" && !typing) return this.done(event, () => (event.shiftKey ? this.store.redo() : this.store.undo()));
-    if (control && event.key.toLowerCase() === "y" && !typing) return this.done(event, () => this.store.redo());
+    if (control && event.key.toLowerCase() === "z" && !typing) return this.done(
+      event, () => (event.shiftKey ? this.store.redo() : this.store.undo()),
+    );
+    if (
+      control && event.key.toLowerCase() === "y" && !typing
+    ) return this.done(event, () => this.store.redo());
     if (typing || control || this.store.get("game")) return;
     const step = (event.shiftKey ? 1 : 0.1) * gridStep(this.view);
-    const ways = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
+    const ways = {
+      ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step],
+    };
     const inDrawing = this.view.element.contains(event.target) || event.target === document.body;
     if (ways[event.key] && inDrawing) return this.done(event, () => this.nudge(ways[event.key]));
     const actions = {
       Delete: () => this.remove(), Backspace: () => this.remove(), Insert: () => this.insert(),
-      Enter: () => this.draft.length && this.finish(), Escape: () => { this.hover = null; this.store.set("tool", "select"); this.select(null); },
+      Enter: () => this.draft.length && this.finish(), Escape: () => {
+        this.hover = null;
+        this.store.set("tool", "select");
+        this.select(null);
+      },
       "+": () => this.view.zoom(0.8), "-": () => this.view.zoom(1.25), 0: () => this.view.home(),
       "?": () => document.getElementById("keys").showModal(),
     };
-    if (actions[event.key] && (inDrawing || ["Escape", "?"].includes(event.key))) this.done(event, actions[event.key]);
+    if (
+      actions[event.key] && (inDrawing || ["Escape", "?"].includes(event.key))
+    ) this.done(event, actions[event.key]);
   }
 
   done(event, action) {
@@ -302,7 +325,7 @@ class Editor {
     const chosen = this.selected;
     if (!chosen) return this.view.pan(...by);
     const { shape, vertex } = chosen;
-    const paths = vertex === null ? shape.paths : [shape.paths[vertex]];
+    const paths = vertex === null ? wholeOf(this.store.get("task"), shape) : [shape.paths[vertex]];
     this.store.edit(`move ${shape.label}`, (task) => moveBy(task, paths, by), `nudge ${shape.id}`);
   }
 
@@ -310,14 +333,18 @@ class Editor {
     const chosen = this.selected;
     if (!chosen) return;
     const { shape, vertex } = chosen;
-    const remove = (task) => void (vertex === null ? removeShape(task, shape) : removeVertex(task, shape, vertex));
+    const remove = (task) => void (
+      vertex === null ? removeShape(task, shape) : removeVertex(task, shape, vertex)
+    );
     this.select(null);
     this.store.edit(`remove ${vertex === null ? "" : "a vertex of "}${shape.label}`, remove);
   }
 
   insert() {
     const chosen = this.selected;
-    if (chosen) this.store.edit("insert a vertex", (task) => void insertVertex(task, chosen.shape, chosen.vertex ?? 0));
+    if (chosen) this.store.edit(
+      "insert a vertex", (task) => void insertVertex(task, chosen.shape, chosen.vertex ?? 0),
+    );
   }
 }
 

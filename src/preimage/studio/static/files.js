@@ -2,7 +2,7 @@
 
 import { Refusal, ask } from "./ask.js";
 import { refusalOf } from "./drawing.js";
-import { html, areaPath, segmentsPath, svg } from "./svg.js";
+import { areaPath, dot, html, segmentsPath, svg } from "./svg.js";
 import { mountTour } from "./tour.js";
 
 const MOST_LINK = 200_000;
@@ -11,7 +11,9 @@ const MOST_FILE = 2 ** 21;
 export function mount({ store, view, planner }) {
   const byId = (id) => document.getElementById(id);
   byId("open").onclick = () => byId("file").click();
-  byId("file").onchange = (event) => event.target.files[0] && open(store, event.target.files[0]).finally(() => { event.target.value = ""; });
+  byId("file").onchange = (event) => event.target.files[0] && open(store, event.target.files[0]).finally(
+    () => { event.target.value = ""; },
+  );
   byId("gallery-open").onclick = () => showGallery(store);
   byId("link").onclick = () => makeLink(store);
   byId("help").onclick = () => byId("keys").showModal();
@@ -27,7 +29,9 @@ export function mount({ store, view, planner }) {
     if (file) open(store, file);
   });
   store.on("history", ({ undo }) => { if (undo !== null) store.set("saved", false); });
-  window.addEventListener("beforeunload", (event) => { if (store.get("saved") === false) event.preventDefault(); });
+  window.addEventListener(
+    "beforeunload", (event) => { if (store.get("saved") === false) event.preventDefault(); },
+  );
   window.addEventListener("hashchange", () => begin(store));
   mountTour({ store, view, planner });
   begin(store);
@@ -36,7 +40,11 @@ export function mount({ store, view, planner }) {
 /** What the page begins with: its link's task, the command's, or peg in hole. */
 async function begin(store) {
   try {
-    const linked = await fromLink(location.hash);
+    const linked = await fromLink(location.hash).catch((error) => {
+      throw error instanceof Refusal ? error : new Refusal(
+        "is not whole: was all of it copied?", "the link",
+      );
+    });
     if (linked) return openTask(store, (await ask("space", { task: linked })).task, "from the link");
     const given = store.get("task") ? null : await (await fetch("given")).json();
     if (given?.plan) return await openPlan(store, given.plan);
@@ -44,7 +52,13 @@ async function begin(store) {
   } catch (error) {
     tell(store, error);
   }
-  if (!store.get("task")) openTask(store, (await ask("example", { name: "peg-in-hole" })).task, "peg-in-hole");
+  if (store.get("task")) return;
+  try {
+    store.open((await ask("example", { name: "peg-in-hole" })).task);
+    store.set("saved", true);
+  } catch (error) {
+    tell(store, error);
+  }
 }
 
 function tell(store, error) {
@@ -92,7 +106,9 @@ async function save(store, view, kind) {
     if (kind === "seen") return download("drawing.svg", "image/svg+xml", standalone(view));
     const plan = store.get("plan")?.plan;
     if (["plan", "gif", "html"].includes(kind) && !plan) throw new Refusal("there is no plan yet");
-    if (kind === "plan") return download(`${plan.task.name}.json`, "application/json", JSON.stringify(plan, null, 1));
+    if (kind === "plan") return download(
+      `${plan.task.name}.json`, "application/json", JSON.stringify(plan, null, 1),
+    );
     store.set("announce", "Working …");
     if (["yaml", "json", "toml"].includes(kind)) {
       const { name, text } = await ask("write", { task: store.get("task"), format: kind });
@@ -100,7 +116,9 @@ async function save(store, view, kind) {
       store.set("saved", true);
     } else {
       const question = ["gif", "html"].includes(kind) ? "film" : "draw";
-      const { name, media, base64 } = await ask(question, { ...(plan ? { plan } : { task: store.get("task") }), format: kind });
+      const { name, media, base64 } = await ask(
+        question, { ...(plan ? { plan } : { task: store.get("task") }), format: kind },
+      );
       download(name, media, Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)));
     }
     store.set("announce", "Saved.");
@@ -139,7 +157,9 @@ async function showGallery(store) {
   const dialog = document.getElementById("gallery");
   const list = document.getElementById("gallery-list");
   dialog.showModal();
-  if (list.children.length) return;
+  if (
+    list.children.length && ![...list.querySelectorAll("svg")].some((picture) => !picture.children.length)
+  ) return;
   try {
     const { examples } = await ask("examples", {});
     list.replaceChildren(...examples.map(({ name, words }) => html("li", {}, html("button", {
@@ -153,7 +173,10 @@ async function showGallery(store) {
         }
       },
     }, svg("svg", { "aria-hidden": true }), html("strong", {}, name), html("small", {}, words)))));
-    for (const button of list.querySelectorAll("button")) await drawSmall(dialog, button);
+    // some at a time: a studio answers few questions at once
+    const waiting = [...list.querySelectorAll("button")];
+    const next = async () => { while (waiting.length) await drawSmall(dialog, waiting.shift()); };
+    await Promise.all([next(), next(), next()]);
   } catch (error) {
     tell(store, error);
   }
@@ -161,15 +184,25 @@ async function showGallery(store) {
 
 async function drawSmall(dialog, button) {
   if (!dialog.open) return;
+  if (button.querySelector("svg").children.length) return;
   const { task } = await ask("example", { name: button.dataset.example });
   const space = await ask("space", { task });
   const [x0, y0, x1, y1] = space.window;
   const picture = button.querySelector("svg");
+  const sides = {
+    left: [x0, y0, x0, y1], right: [x1, y0, x1, y1], bottom: [x0, y0, x1, y0], top: [x0, y1, x1, y1],
+  };
   picture.setAttribute("viewBox", `${x0} ${-y1} ${x1 - x0} ${y1 - y0}`);
-  const turned = svg("g", { transform: "scale(1 -1)" },
+  const turned = svg("g", { class: "plane", transform: "scale(1 -1)" },
+    svg("path", { class: "solid area", d: areaPath(space.solid) }),
     svg("path", { class: "c-obstacle area", d: areaPath(space.obstacles) }),
     svg("path", { class: "goal area", d: areaPath(space.goal.area) }),
-    svg("path", { class: "goal edges", d: segmentsPath(space.goal.edges), "stroke-width": (x1 - x0) / 40 }));
+    ...space.task.walls.map(
+      (side) => svg("path", { class: "side wall", d: segmentsPath([sides[side]]) }),
+    ),
+    svg("path", { class: "goal edges", d: segmentsPath(space.goal.edges) }),
+    ...space.goal.vertices.map(([x, y]) => dot(x, y, "goal vertex", 4)),
+    ...space.start.vertices.slice(0, 1).map(([x, y]) => dot(x, y, "start vertex", 3)));
   picture.replaceChildren(turned);
 }
 
@@ -178,9 +211,13 @@ async function drawSmall(dialog, button) {
 async function makeLink(store) {
   try {
     const { task } = await ask("space", { task: store.get("task") });
-    const packed = new Blob([JSON.stringify(task)]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+    const packed = new Blob([JSON.stringify(task)]).stream().pipeThrough(
+      new CompressionStream("deflate-raw"),
+    );
     const bytes = new Uint8Array(await new Response(packed).arrayBuffer());
-    const text = btoa(String.fromCharCode(...bytes.slice(0, 60_000))).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+    const text = btoa(
+      String.fromCharCode(...bytes.slice(0, 60_000)),
+    ).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
     if (bytes.length > 60_000) throw new Refusal("the task is too large for a link: save it as a file");
     const address = `${location.origin}${location.pathname}#task=${text}`;
     history.replaceState(null, "", address);
@@ -195,15 +232,19 @@ async function makeLink(store) {
 async function fromLink(hash) {
   const packed = /^#task=([\w-]+)$/.exec(hash)?.[1];
   if (!packed) return null;
-  const bytes = Uint8Array.from(atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
-  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
+  const bytes = Uint8Array.from(
+    atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0),
+  );
+  const reader = new Blob([bytes]).stream().pipeThrough(
+    new DecompressionStream("deflate-raw"),
+  ).getReader();
   const parts = [];
   let size = 0;
   for (;;) {
     const { done, value } = await reader.read();
     if (done) break;
     size += value.length;
-    if (size > MOST_LINK) throw new Refusal("the link holds more than a task should");
+    if (size > MOST_LINK) throw new Refusal("holds more than a task should", "the link");
     parts.push(value);
   }
   return JSON.parse(await new Blob(parts).text());

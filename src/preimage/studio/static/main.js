@@ -19,6 +19,9 @@ const store = new Store();
 const view = new View(document.getElementById("drawing"));
 const planner = new Latest();
 
-for (const part of [tabs, drawing, editor, bounds, planning, layers, running, play, explaining, budget, files]) {
+const parts = [
+  tabs, drawing, editor, bounds, planning, layers, running, play, explaining, budget, files,
+];
+for (const part of parts) {
   part.mount({ store, view, planner });
 }

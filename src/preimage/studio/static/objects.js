@@ -1,6 +1,6 @@
 // The list of objects, which is the way without a pointer, and the numbers of what is selected.
 
-import { at, moveBy, put, tidy } from "./shapes.js";
+import { at, moveBy, put, tidy, wholeOf } from "./shapes.js";
 import { html } from "./svg.js";
 
 /** Show the list and the numbers, and keep them up to date. */
@@ -33,24 +33,41 @@ function numbersOf(editor, { shape, vertex }) {
   const { store } = editor;
   const place = vertex ?? 0;
   const [x, y] = shape.points[place];
-  const move = (by) => store.edit(`move ${shape.label}`, (task) => moveBy(task, vertex === null ? shape.paths : [shape.paths[vertex]], by));
+  const move = (by) => store.edit(
+    `move ${shape.label}`,
+    (task) => moveBy(task, vertex === null ? wholeOf(task, shape) : [shape.paths[vertex]], by),
+  );
   const shown = [
-    html("span", { class: "faded" }, vertex === null ? `${shape.label}, by its first point` : `vertex ${vertex + 1} of ${shape.points.length}`),
+    html(
+      "span", { class: "faded" },
+      vertex === null ? `${shape.label}, by its first point` : `vertex ${vertex + 1} of ${shape.points.length}`,
+    ),
     entry("number-x", "x", tidy(x), (value) => move([value - x, 0])),
     entry("number-y", "y", tidy(y), (value) => move([0, value - y])),
   ];
   const task = store.get("task");
   if (shape.id === "initial.disc") {
-    shown.push(entry("number-radius", "radius", task.initial.disc.radius, (value) => store.edit("radius", (t) => put(t, ["initial", "disc", "radius"], value)), { min: 0 }));
+    shown.push(
+      entry(
+        "number-radius", "radius", task.initial.disc.radius,
+        (value) => store.edit("radius", (t) => put(t, ["initial", "disc", "radius"], value)),
+        { min: 0 },
+      ),
+    );
   }
   if (shape.kind === "chain") {
     const path = [...shape.paths[0].slice(0, 2), "solid"];
     const side = html("select", { id: "solid", onchange: () => store.edit("solid side", (t) => put(t, path, side.value)) },
-      ...["left", "right"].map((name) => html("option", { value: name, selected: at(task, path) === name }, name)));
+      ...["left", "right"].map(
+        (name) => html("option", { value: name, selected: at(task, path) === name }, name),
+      ));
     shown.push(html("label", {}, "solid", side));
   }
   shown.push(html("div", { class: "row" },
-    html("button", { type: "button", id: "vertex-insert", onclick: () => editor.insert() }, "Insert vertex"),
+    html(
+      "button", { type: "button", id: "vertex-insert", onclick: () => editor.insert() },
+      "Insert vertex",
+    ),
     html("button", { type: "button", id: "remove", onclick: () => editor.remove() }, "Remove")));
   return shown;
 }
@@ -62,11 +79,24 @@ function windowOf(store) {
   const rows = names.map((side, place) => {
     const wall = html("input", {
       type: "checkbox", id: `wall-${side}`, checked: task.walls.includes(side), "aria-label": `${side} is a wall`,
-      onchange: () => store.edit("walls", (t) => { t.walls = wall.checked ? [...t.walls, side] : t.walls.filter((one) => one !== side); }),
+      onchange: () => store.edit(
+        "walls",
+        (t) => { t.walls = wall.checked ? [...t.walls, side] : t.walls.filter((one) => one !== side); },
+      ),
     });
-    const row = entry(`window-${side}`, side, task.window[place], (value) => store.edit("window", (t) => { t.window[place] = value; }));
+    const row = entry(
+      `window-${side}`, side, task.window[place],
+      (value) => store.edit("window", (t) => { t.window[place] = value; }),
+    );
     return html("div", { class: "window-side" }, row, html("span", { class: "check" }, wall, "wall"));
   });
-  const everywhere = html("button", { type: "button", id: "start-everywhere", onclick: () => store.edit("start everywhere", (t) => { t.initial = "everywhere"; }) }, "Start everywhere");
+  const everywhere = html(
+    "button",
+    {
+      type: "button", id: "start-everywhere",
+      onclick: () => store.edit("start everywhere", (t) => { t.initial = "everywhere"; }),
+    },
+    "Start everywhere",
+  );
   return [html("span", { class: "faded" }, "Window"), ...rows, everywhere];
 }

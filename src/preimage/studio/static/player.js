@@ -14,12 +14,16 @@ export function instantOf(legs, time) {
   const next = Math.min(place + 1, leg.times.length - 1);
   const span = leg.times[next] - leg.times[place];
   const share = span > 0 ? Math.min(1, (time - leg.times[place]) / span) : 0;
-  const between = (axis) => leg.places[place][axis] + share * (leg.places[next][axis] - leg.places[place][axis]);
+  const [from, to] = [leg.places[place], leg.places[next]];
+  const between = (axis) => from[axis] + share * (to[axis] - from[axis]);
   const at = [between(0), between(1)];
   // in between, the error is that of the last look
   const measured = leg.measured[place];
   const seen = measured && [0, 1].map((axis) => measured[axis] - leg.places[place][axis] + at[axis]);
-  return { number, leg, place: at, measured: seen, force: leg.forces[place], direction: leg.direction, actual: leg.actual[place], over: time >= leg.times.at(-1) };
+  return {
+    number, leg, place: at, measured: seen, force: leg.forces[place], direction: leg.direction,
+    actual: leg.actual[place], over: time >= leg.times.at(-1),
+  };
 }
 
 /** Play, pause, a slider and a speed; tells the time that is to be shown. */
@@ -31,10 +35,28 @@ export class Transport {
     this.show = show;
     this.total = 0;
     this.time = 0;
-    this.button = html("button", { type: "button", id: `${id}-play`, onclick: () => (this.#frame ? this.pause() : this.play()) }, "Play");
-    this.slider = html("input", { type: "range", id: `${id}-time`, min: 0, max: 1, step: "any", "aria-label": "Time of the run", oninput: () => { this.pause(); this.go(this.slider.valueAsNumber); } });
-    this.speed = html("select", { id: `${id}-speed`, "aria-label": "Speed" }, ...[0.25, 0.5, 1, 2, 4].map((value) => html("option", { value, selected: value === 1 }, `${value}×`)));
-    this.element = html("div", { class: "row transport", hidden: true }, this.button, this.slider, this.speed);
+    this.button = html(
+      "button",
+      { type: "button", id: `${id}-play`, onclick: () => (this.#frame ? this.pause() : this.play()) },
+      "Play",
+    );
+    this.slider = html(
+      "input",
+      {
+        type: "range", id: `${id}-time`, min: 0, max: 1, step: "any",
+        "aria-label": "Time of the run",
+        oninput: () => { this.pause(); this.go(this.slider.valueAsNumber); },
+      },
+    );
+    this.speed = html(
+      "select", { id: `${id}-speed`, "aria-label": "Speed" },
+      ...[0.25, 0.5, 1, 2, 4].map(
+        (value) => html("option", { value, selected: value === 1 }, `${value}×`),
+      ),
+    );
+    this.element = html(
+      "div", { class: "row transport", hidden: true }, this.button, this.slider, this.speed,
+    );
   }
 
   /** Begin with a run that takes so long. */

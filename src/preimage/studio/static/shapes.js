@@ -12,7 +12,7 @@ export function put(task, path, value) {
  * All shapes of a task, in the order in which they lie on each other.
  *
  * @returns {{id, label, kind, closed, paths, points, offset}[]} `points` are in the plane; what is
- * in the document is less `offset`, which only the robot has. A disc has a second point on its rim.
+ * in the document is less `offset`, which only the robot has.
  */
 export function shapesOf(task, robotAt = [0, 0]) {
   const found = [];
@@ -23,15 +23,23 @@ export function shapesOf(task, robotAt = [0, 0]) {
   const ring = (path) => at(task, path).map((_, place) => [...path, place]);
   (task.obstacles ?? []).forEach((obstacle, place) => {
     const [name, root] = [`obstacle ${place + 1}`, ["obstacles", place]];
-    if (obstacle.chain) return add(root.join("."), `${name}, a chain`, "chain", ring([...root, "chain"]), false);
+    if (obstacle.chain) return add(
+      root.join("."), `${name}, a chain`, "chain", ring([...root, "chain"]), false,
+    );
     add(root.join("."), name, "polygon", ring([...root, "polygon"]), true);
     (obstacle.holes ?? []).forEach((_, hole) =>
-      add([...root, "holes", hole].join("."), `hole ${hole + 1} of ${name}`, "hole", ring([...root, "holes", hole]), true));
+      add(
+        [...root, "holes", hole].join("."), `hole ${hole + 1} of ${name}`, "hole",
+        ring([...root, "holes", hole]), true,
+      ));
   });
   (task.goal.edges ?? []).forEach((_, place) =>
     add(`goal.edges.${place}`, `goal edge ${place + 1}`, "goal", ring(["goal", "edges", place]), false));
   (task.goal.polygons ?? []).forEach((_, place) =>
-    add(`goal.polygons.${place}`, `goal area ${place + 1}`, "goal", ring(["goal", "polygons", place]), true));
+    add(
+      `goal.polygons.${place}`, `goal area ${place + 1}`, "goal", ring(["goal", "polygons", place]),
+      true,
+    ));
   (task.goal.points ?? []).forEach((_, place) =>
     add(`goal.points.${place}`, `goal point ${place + 1}`, "goal", [["goal", "points", place]], false));
   addStart(task, add, ring);
@@ -46,12 +54,28 @@ export function shapesOf(task, robotAt = [0, 0]) {
 function addStart(task, add, ring) {
   const { initial } = task;
   if (initial.point) add("initial.point", "start", "start", [["initial", "point"]], false);
-  else if (initial.disc) add("initial.disc", "start, a disc", "start", [["initial", "disc", "center"]], false);
-  else if (initial.polygon) add("initial.polygon", "start area", "start", ring(["initial", "polygon"]), true);
+  else if (initial.disc) add(
+    "initial.disc", "start, a disc", "start", [["initial", "disc", "center"]], false,
+  );
+  else if (initial.polygon) add(
+    "initial.polygon", "start area", "start", ring(["initial", "polygon"]), true,
+  );
   else if (initial.edges) {
     initial.edges.forEach((_, place) =>
-      add(`initial.edges.${place}`, `start edge ${place + 1}`, "start", ring(["initial", "edges", place]), false));
+      add(
+        `initial.edges.${place}`, `start edge ${place + 1}`, "start",
+        ring(["initial", "edges", place]), false,
+      ));
   }
+}
+
+/** What moves with a shape as a whole: its points, and an obstacle's holes. */
+export function wholeOf(task, shape) {
+  const [root, place, ...rest] = shape.id.split(".");
+  const holes = root === "obstacles" && !rest.length ? (task.obstacles[place].holes ?? []) : [];
+  const within = holes.flatMap((ring, hole) =>
+    ring.map((_, point) => ["obstacles", Number(place), "holes", hole, point]));
+  return [...shape.paths, ...within];
 }
 
 /** Move points of a shape by so much. */
@@ -68,7 +92,7 @@ export const tidy = (value) => Number(value.toFixed(9));
 /** Remove a whole shape; what must be there stays. */
 export function removeShape(task, shape) {
   const path = shape.id.split(".").map((key) => (/^\d+$/.test(key) ? Number(key) : key));
-  if (shape.kind === "start") return false;
+  if (shape.kind === "start" && !(task.initial.edges?.length > 1)) return false;
   if (shape.kind === "robot") task.robot = "point";
   else at(task, path.slice(0, -1)).splice(path.at(-1), 1);
   return true;
@@ -85,12 +109,16 @@ export function removeVertex(task, shape, place) {
 
 /** Insert a vertex after another, half way to the next. */
 export function insertVertex(task, shape, place, point = null) {
-  if (shape.paths.length < 2 || shape.id.startsWith("goal.edges") || shape.id.startsWith("initial.edges")) return false;
+  if (
+    shape.paths.length < 2 || shape.id.startsWith("goal.edges") || shape.id.startsWith("initial.edges")
+  ) return false;
   const next = shape.points[(place + 1) % shape.points.length];
   const here = shape.points[place];
   const middle = point ?? [(here[0] + next[0]) / 2, (here[1] + next[1]) / 2];
   const path = shape.paths[place];
-  at(task, path.slice(0, -1)).splice(path.at(-1) + 1, 0, middle.map((value, axis) => tidy(value - shape.offset[axis])));
+  at(task, path.slice(0, -1)).splice(
+    path.at(-1) + 1, 0, middle.map((value, axis) => tidy(value - shape.offset[axis])),
+  );
   return true;
 }
 
@@ -107,5 +135,8 @@ export const BLANK = {
   sliding: "projection",
   initial: { point: [0, 6] },
   goal: { edges: [[[-3, 0], [3, 0]]], polygons: [], points: [] },
-  planner: { directions: 8, method: "combined", strategy: "linear", termination: "instantaneous", max_steps: 8 },
+  planner: {
+    directions: 8, method: "combined", strategy: "linear", termination: "instantaneous",
+    max_steps: 8,
+  },
 };

@@ -3,14 +3,19 @@
 import { fineStep } from "./drawing.js";
 
 const NEAR_PIXELS = 9;
+const LEVEL_PIXELS = 5;
 
 /**
  * The point to which another one snaps, and what it snapped to.
  *
- * @param {object} options `contact`: only contact space counts; `others`: points to snap to.
- * @returns {{point: number[], to: "vertex"|"edge"|"grid"|null, edge?: object}}
+ * @param {object} options `contact`: only contact space counts; `others`: points to snap to;
+ *   `levels`: points to be level with.
+ * @returns {{point: number[], to: "vertex"|"edge"|"level"|"grid"|null, edge?: object,
+ *   guides?: number[][][]}} `guides` are from the points that it is level with.
  */
-export function snapped(point, view, store, { contact = false, others = [], off = false } = {}) {
+export function snapped(
+  point, view, store, { contact = false, others = [], levels = others, off = false } = {},
+) {
   const space = store.get("space");
   const near = NEAR_PIXELS * view.scale;
   if (off || !store.get("snap")) return contact ? onContact(point, space, near * 3) : { point, to: null };
@@ -20,11 +25,23 @@ export function snapped(point, view, store, { contact = false, others = [], off 
   const step = fineStep(view);
   const rounded = (place) => place.map((value) => Number((Math.round(value / step) * step).toFixed(9)));
   const edge = onContact(point, space, contact ? near * 3 : near);
-  if (!edge.to) return { point: rounded(point), to: "grid" };
+  if (!edge.to) return level(point, levels, LEVEL_PIXELS * view.scale, rounded(point));
   // a point of the grid on that edge, if there is one near
   const [x, y] = rounded(edge.point);
   const [u, v] = projected([x, y], edge.edge.from, edge.edge.to);
   return Math.hypot(u - x, v - y) < 1e-9 * step ? { ...edge, point: [x, y] } : edge;
+}
+
+/** Level with another point, or straight above or below it; `otherwise` in what is neither. */
+function level([x, y], others, near, otherwise) {
+  const nearest = (axis, value) => others.reduce((best, other) => {
+    const away = Math.abs(other[axis] - value);
+    return away <= (best ? Math.abs(best[axis] - value) : near) ? other : best;
+  }, null);
+  const [above, beside] = [nearest(0, x), nearest(1, y)];
+  if (!above && !beside) return { point: otherwise, to: "grid" };
+  const point = [above ? above[0] : otherwise[0], beside ? beside[1] : otherwise[1]];
+  return { point, to: "level", guides: [above, beside].filter(Boolean).map((other) => [other, point]) };
 }
 
 function nearestOf(points, [x, y], near) {
@@ -36,6 +53,10 @@ function nearestOf(points, [x, y], near) {
   }
   return best;
 }
+
+/** The contact edge nearest to a point of it, or null. */
+export const edgeAt = (point, view, store) =>
+  onContact(point, store.get("space"), NEAR_PIXELS * view.scale).edge ?? null;
 
 function onContact(point, space, near) {
   let found = { point, to: null };

@@ -8,12 +8,35 @@ export class Sweep {
 
   constructor(view) {
     this.view = view;
-    this.slider = html("input", { type: "range", id: "sweep-step", min: 0, max: 1, step: 1, "aria-label": "Step of the sweep", oninput: () => this.go(this.slider.valueAsNumber) });
+    this.slider = html(
+      "input",
+      {
+        type: "range", id: "sweep-step", min: 0, max: 1, step: 1, "aria-label": "Step of the sweep",
+        oninput: () => this.go(this.slider.valueAsNumber),
+      },
+    );
     this.says = html("p", { id: "sweep-says", role: "status" });
-    this.button = html("button", { type: "button", id: "sweep-play", onclick: () => (this.#playing ? this.pause() : this.play()) }, "Play");
-    const step = (by, words, id) => html("button", { type: "button", id, onclick: () => { this.pause(); this.go(this.place + by); } }, words);
-    const whole = html("button", { type: "button", id: "sweep-end", onclick: () => { this.pause(); this.finish(); } }, "All");
-    this.element = html("div", {}, html("div", { class: "row transport" }, step(-1, "‹", "sweep-back"), this.button, step(1, "›", "sweep-next"), this.slider, whole), this.says);
+    this.button = html(
+      "button",
+      { type: "button", id: "sweep-play", onclick: () => (this.#playing ? this.pause() : this.play()) },
+      "Play",
+    );
+    const step = (by, words, id) => html(
+      "button", { type: "button", id, onclick: () => { this.pause(); this.go(this.place + by); } },
+      words,
+    );
+    const whole = html(
+      "button",
+      { type: "button", id: "sweep-end", onclick: () => { this.pause(); this.finish(); } }, "All",
+    );
+    this.element = html(
+      "div", {},
+      html(
+        "div", { class: "row transport" }, step(-1, "‹", "sweep-back"), this.button,
+        step(1, "›", "sweep-next"), this.slider, whole,
+      ),
+      this.says,
+    );
   }
 
   /** Show the whole of a stage; the steps wait to be played. */
@@ -28,13 +51,13 @@ export class Sweep {
   clear() {
     this.pause();
     this.stage = null;
-    this.view.draw("labels");
   }
 
   finish() {
     this.place = -1;
     this.slider.value = this.slider.max;
-    this.says.textContent = this.heights?.length ? `${this.heights.length} heights at which something is decided.` : "";
+    const many = this.heights?.length;
+    this.says.textContent = many ? `${many} heights at which something is decided.` : "";
     this.view.layer("backprojection").querySelector(".sweep")?.remove();
     this.view.layer("rays").removeAttribute("clip-path");
     for (const element of this.view.layer("backprojection").children) element.removeAttribute("clip-path");
@@ -47,7 +70,8 @@ export class Sweep {
     this.slider.value = this.place;
     const height = this.heights[this.place];
     const events = this.stage.sweep.filter((event) => event.height === height);
-    this.says.textContent = `Step ${this.place + 1} of ${this.heights.length}: ${[...new Set(events.map(({ words }) => words))].join("; ")}.`;
+    const words = [...new Set(events.map((event) => event.words))].join("; ");
+    this.says.textContent = `Step ${this.place + 1} of ${this.heights.length}: ${words}.`;
     this.draw(height, events);
   }
 
@@ -60,7 +84,9 @@ export class Sweep {
     const along = [-dy * reach, dx * reach];
     const ends = [[foot[0] - along[0], foot[1] - along[1]], [foot[0] + along[0], foot[1] + along[1]]];
     const ahead = ends.map(([x, y]) => [x + dx * reach, y + dy * reach]).reverse();
-    const clip = svg("clipPath", { id: "swept" }, svg("path", { d: `${linePath([...ends, ...ahead])}Z` }));
+    const clip = svg(
+      "clipPath", { id: "swept" }, svg("path", { d: `${linePath([...ends, ...ahead])}Z` }),
+    );
     const group = svg("g", { class: "sweep" }, clip);
     view.layer("backprojection").querySelector(".sweep")?.remove();
     view.layer("backprojection").append(group);

@@ -15,7 +15,9 @@ export function render({ model, el }) {
   el.append(picture, says);
   const view = new View(picture);
   drawSpace(view, space);
-  if (plan) view.draw("preimages", ...plan.regions.filter(({ direction }) => direction !== null).flatMap(elementsOf));
+  if (plan) view.draw(
+    "preimages", ...plan.regions.filter(({ direction }) => direction !== null).flatMap(elementsOf),
+  );
   requestAnimationFrame(() => view.fit(space.window));
   view.draw("robot", ...robotAt(space, anchor(space)));
   if (!run?.legs.length) return;

@@ -16,7 +16,7 @@ from preimage.mechanics.behaviour import Behaviour
 from preimage.preimages.methods import preimage
 from preimage.preimages.preimage import Preimage
 from preimage.preimages.setting import Command, Setting
-from preimage.strategy.words import direction_words, number
+from preimage.strategy.words import count, direction_words, number, region_words
 from preimage.studio.plain import DIGITS, area_of, degrees_of, points_of, region_of
 from preimage.studio.questions import Body, Tell
 from preimage.studio.requests import angle, drawable, needed, strategy_of, task_of, word
@@ -212,13 +212,10 @@ def _words(found: Preimage, control: float) -> list[str]:
             f"Under {direction_words(found.direction)} no part of the goal is recognised: there is "
             "nothing to aim at."
         ]
-    area, length = target.region.area.measure, target.region.contact.total_length
-    corners = len(target.region.contact.vertices)
+    rays = len(found.backprojection.rays)
     return [
-        f"The motion {direction_words(found.direction)} aims at an area of {number(area)}, contact "
-        f"of length {number(length)} and {corners} vertices.",
-        f"All motions within the control cone reach that from an area of "
-        f"{number(back.area.measure)} and contact of length {number(back.contact.total_length)}.",
-        f"The border of that is {len(found.backprojection.rays)} rays at "
-        f"±{number(to_degrees(control))}° from the motion, and obstacles.",
+        f"The motion {direction_words(found.direction)} aims at {region_words(target.region)}.",
+        f"All motions within the control cone reach that from {region_words(back)}.",
+        f"The border of that is {count(rays, 'ray')} at ±{number(to_degrees(control))}° from the "
+        "motion, and obstacles.",
     ]

@@ -29,12 +29,15 @@ export function mount({ store }) {
     "button", { type: "button", id: "budget-cancel", hidden: true, onclick: () => latest.cancel() },
     "Cancel",
   );
+  let round = null;
   const ask = async () => {
     const bounds = boxes.map(
       (label) => label.firstChild,
     ).filter(({ checked }) => checked).map(({ value }) => value);
     if (!bounds.length) { now.textContent = "Choose a bound."; return; }
+    const mine = round = Symbol("question");
     cancel.hidden = false;
+    now.textContent = "working …";
     result.replaceChildren();
     try {
       const found = await latest.ask(
@@ -50,11 +53,12 @@ export function mount({ store }) {
         ),
       );
     } catch (error) {
+      if (round !== mine) return;
       const { where, words } = refusalOf(error);
       const refused = [where, words].filter(Boolean).join(": ");
       now.textContent = error.name === "AbortError" ? "taken back" : refused;
     }
-    cancel.hidden = true;
+    if (round === mine) cancel.hidden = true;
   };
   panel.append(
     html(
@@ -68,7 +72,7 @@ export function mount({ store }) {
       html("button", { type: "button", id: "budget", class: "primary", onclick: ask }, "Ask"),
       cancel,
     ), now, result);
-  store.on("task", () => { latest.cancel(); result.replaceChildren(); now.textContent = ""; });
+  store.on("task", () => { latest.cancel(); round = null; cancel.hidden = true; result.replaceChildren(); now.textContent = ""; });
 }
 
 function axisOf(store, axis) {

@@ -43,11 +43,12 @@ class Why {
         ), this.cancel),
       this.now, this.transport.element, this.result);
     store.on("task", () => this.clear());
-    store.on("tab", (tab) => tab !== "why" && this.leave());
+    store.on("tab", (tab) => (tab === "why" ? this.enter() : this.leave()));
   }
 
   async asked(question, body, show) {
     this.clear();
+    const round = this.round = Symbol("question");
     this.cancel.hidden = false;
     this.now.textContent = "working …";
     try {
@@ -58,11 +59,12 @@ class Why {
       this.result.replaceChildren(...show(found).filter(Boolean));
       this.now.textContent = "";
     } catch (error) {
+      if (this.round !== round) return;
       const { where, words } = refusalOf(error);
       const refused = [where, words].filter(Boolean).join(": ");
       this.now.textContent = error.name === "AbortError" ? "taken back" : refused;
     }
-    this.cancel.hidden = true;
+    if (this.round === round) this.cancel.hidden = true;
   }
 
   explain(budgeted) {
@@ -159,19 +161,25 @@ class Why {
 
   clear() {
     this.latest.cancel();
+    this.round = null;
+    this.cancel.hidden = true;
     this.leave();
     this.way = null;
     this.result.replaceChildren();
     this.now.textContent = "";
   }
 
+  enter() {
+    if (this.way) this.transport.load(lengthOf(this.way));
+  }
+
   leave() {
     this.transport.clear();
+    if (this.result.childElementCount) this.store.set("highlight", null);
     if (!this.way) return;
     this.view.draw("trace");
     const space = this.store.get("space");
     if (space) this.view.draw("robot", ...robotAt(space, anchor(space)));
-    this.store.set("highlight", null);
   }
 }
 

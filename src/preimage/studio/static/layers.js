@@ -1,6 +1,6 @@
 // One motion looked at closely: what features do, what is aimed at, from where it is reached.
 
-import { Latest } from "./ask.js";
+import { ask } from "./ask.js";
 import { refusalOf, spokenName } from "./drawing.js";
 import { mountGraph } from "./graph.js";
 import { Sweep } from "./sweep.js";
@@ -29,7 +29,7 @@ export function mount({ store, view }) {
 
 class Layers {
   constructor(store, view) {
-    Object.assign(this, { store, view, latest: new Latest() });
+    Object.assign(this, { store, view, asking: false, again: false });
     this.shown = Object.fromEntries(Object.entries(LAYERS).map(([name, [on]]) => [name, on]));
     this.sweep = new Sweep(view);
   }
@@ -144,20 +144,34 @@ class Layers {
     this.store.set("direction", last.direction);
   }
 
+  /** One question at a time, so that a drag sees answers; what changes meanwhile is asked next. */
   async refresh() {
     const { store } = this;
-    const [task, space, plan] = [store.get("task"), store.get("space"), store.get("plan")];
-    if (store.get("tab") !== "layers" || !space || store.get("refusal")) return;
-    this.turnTo(store.get("direction"), task.uncertainty.control);
+    if (store.get("tab") !== "layers" || !store.get("space") || store.get("refusal")) return;
+    this.turnTo(store.get("direction"), store.get("task").uncertainty.control);
     this.goal.value = store.get("goal");
-    const body = plan ? { plan: plan.plan, goal: store.get("goal") } : { task };
+    this.again = this.asking;
+    if (this.asking) return;
+    this.asking = true;
+    await this.ask();
+    this.asking = false;
+    if (this.again) this.refresh();
+  }
+
+  async ask() {
+    const { store } = this;
+    const [task, plan, goal] = [store.get("task"), store.get("plan"), store.get("goal")];
+    const body = plan ? { plan: plan.plan, goal } : { task };
+    const still = () => store.get("task") === task && store.get("plan") === plan;
     try {
-      const stage = await this.latest.ask("stage", { ...body, direction: store.get("direction") });
-      if (store.get("task") === task) store.set("stage", stage);
+      const stage = await ask("stage", { ...body, direction: store.get("direction") });
+      if (still()) store.set("stage", stage);
     } catch (error) {
-      if (error.name !== "AbortError") this.words.replaceChildren(
-        html("p", { class: "bad" }, refusalOf(error).words),
-      );
+      if (!still()) return;
+      store.set("stage", null);
+      const { where, words } = refusalOf(error);
+      const said = [where, words].filter(Boolean).join(": ");
+      this.words.replaceChildren(html("p", { class: "bad" }, said));
     }
   }
 
@@ -179,9 +193,7 @@ class Layers {
     view.draw(
       "backprojection", ...on("preimage", regionElements(stage.preimage, "preimage")),
       ...on("backprojection", regionElements(stage.backprojection, "backprojection")),
-    );
-    view.draw(
-      "target", ...on("kernel", regionElements(stage.kernel, "kernel", 5)),
+      ...on("kernel", regionElements(stage.kernel, "kernel", 5)),
       ...on("sticking", regionElements(stage.sticking, "sticking", 5)),
     );
     view.draw("rays", ...on("rays", [svg("path", { class: "ray", d: segmentsPath(stage.rays) })]));
@@ -228,6 +240,7 @@ class Layers {
       fan.style.fill = fan.style.stroke = `var(--colour)`;
       return fan;
     }));
+    for (const fan of view.layer("rays").querySelectorAll(".fan")) fan.remove();
     if (!this.shown.fans) return;
     const edges = new Map(space.features.map((feature) => [feature.id, feature]));
     const fans = stage.features.filter(
@@ -246,7 +259,7 @@ class Layers {
   }
 
   clear() {
-    for (const name of ["backprojection", "target", "rays", "features"]) this.view.draw(name);
+    for (const name of ["backprojection", "rays", "features"]) this.view.draw(name);
     this.sweep.clear();
   }
 }

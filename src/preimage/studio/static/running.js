@@ -82,26 +82,31 @@ class Running {
   }
 
   async entered() {
-    if (!this.control.options.length) {
-      const { control, sensing } = await ask("adversaries", {});
-      const lists = [[this.control, control, "hunting"], [this.sensing, sensing, "towards"]];
-      for (const [select, list, usual] of lists) {
-        select.append(
-          ...list.map(
-            ({ name, words }) => html(
-              "option", { value: name, selected: name === usual, title: words }, name,
-            ),
-          ),
-        );
-        this.explained = {
-          ...this.explained, [select.id]: new Map(list.map(({ name, words }) => [name, words])),
-        };
-      }
-      this.describe();
+    try {
+      this.known ??= ask("adversaries", {}).then((found) => this.choices(found));
+      await this.known;
+    } catch (error) {
+      this.known = null;
+      this.failed(error);
+      return;
     }
-    if (this.run) this.show(this.transport.time);
+    if (this.store.get("tab") !== "run") return;
+    if (this.run) this.begin(this.store.get("plan"));
     else if (this.store.get("plan")?.status === "solved") this.once();
     else this.outcome.textContent = "There is no plan to run: plan first (Ctrl+Enter).";
+  }
+
+  /** Fill the lists of adversaries, once. */
+  choices({ control, sensing }) {
+    const lists = [[this.control, control, "hunting"], [this.sensing, sensing, "towards"]];
+    for (const [select, list, usual] of lists) {
+      select.append(...list.map(({ name, words }) => (
+        html("option", { value: name, selected: name === usual, title: words }, name))));
+      this.explained = {
+        ...this.explained, [select.id]: new Map(list.map(({ name, words }) => [name, words])),
+      };
+    }
+    this.describe();
   }
 
   /** What the adversaries that are chosen do. */
@@ -131,6 +136,8 @@ class Running {
   }
 
   forget() {
+    this.latest.cancel();
+    this.many.cancel();
     this.run = this.start = this.at = null;
     this.transport.clear();
     this.says.textContent = this.outcome.textContent = "";
@@ -148,9 +155,7 @@ class Running {
     };
     try {
       this.run = await this.latest.ask("run", this.start ? { ...body, start: this.start } : body);
-      this.outcome.textContent = "";
-      drawWay(this.view, this.run.legs, plan);
-      this.transport.load(this.run.time);
+      if (this.store.get("tab") === "run") this.begin(plan);
     } catch (error) {
       if (error.name === "AbortError") return;
       this.run = null;
@@ -159,6 +164,15 @@ class Running {
       this.says.textContent = "";
       this.failed(error);
     }
+  }
+
+  begin(plan) {
+    const { legs, words, good, time } = this.run;
+    this.outcome.className = good ? "good" : "bad";
+    this.outcome.textContent = legs.length ? "" : `It ended ${words}, without a motion.`;
+    drawWay(this.view, legs, plan);
+    if (legs.length) this.transport.load(time);
+    else this.transport.clear();
   }
 
   failed(error) {
@@ -198,6 +212,7 @@ class Running {
   async often() {
     const plan = this.store.get("plan");
     if (plan?.status !== "solved") return;
+    const asked = this.asked = Symbol("runs");
     this.cancel.hidden = false;
     try {
       const found = await this.many.ask("runs", { plan: plan.plan, runs: 100 }, {
@@ -217,12 +232,13 @@ class Running {
               html("td", {}, `${row.failures} of ${row.runs}`),
             ),
           ),
-        ) : null);
+        ) : "");
     } catch (error) {
+      if (this.asked !== asked) return;
       this.counts.replaceChildren();
       this.failed(error);
     }
-    this.cancel.hidden = true;
+    if (this.asked === asked) this.cancel.hidden = true;
   }
 
   /** While this tab is shown, the robot itself can be dragged to another start. */

@@ -39,8 +39,9 @@ export class Sweep {
     );
   }
 
-  /** Show the whole of a stage; the steps wait to be played. */
+  /** Show the whole of a stage, its steps waiting to be played; or the step at which it stands. */
   load(stage, space) {
+    if (stage === this.stage && this.place >= 0) return this.go(this.place);
     this.pause();
     Object.assign(this, { stage, space, place: -1 });
     this.heights = [...new Set(stage.sweep.map(({ height }) => height))];
@@ -91,8 +92,9 @@ export class Sweep {
     view.layer("backprojection").querySelector(".sweep")?.remove();
     view.layer("backprojection").append(group);
     view.layer("rays").setAttribute("clip-path", "url(#swept)");
+    // what is aimed at is known before the sweep begins
     for (const element of view.layer("backprojection").children) {
-      if (element !== group) element.setAttribute("clip-path", "url(#swept)");
+      if (!element.matches(".sweep, .kernel, .sticking")) element.setAttribute("clip-path", "url(#swept)");
     }
     group.append(
       svg("path", { class: "sweep-line", d: segmentsPath([[...ends[0], ...ends[1]]]) }),

@@ -114,6 +114,16 @@ def test_vertices_are_dragged_nudged_and_typed_and_all_is_undone(page: Page) -> 
     assert saved_json(page, "json")["goal"]["edges"] == [[[-3, 0], [5, 0]]]
 
 
+def test_the_error_of_the_position_is_seen_at_the_start(page: Page) -> None:
+    disc = page.locator("[data-layer=start] .error-disc")
+    expect(disc).to_have_attribute("r", "0.3")
+    page.fill("#bound-position", "0.5")
+    page.keyboard.press("Tab")
+    expect(disc).to_have_attribute("r", "0.5")
+    page.uncheck("#has-position")
+    expect(disc).to_have_count(0)
+
+
 def test_a_slider_is_one_step_and_what_is_wrong_is_said_at_its_place(page: Page) -> None:
     slider = page.locator("#slider-control")
     box = slider.bounding_box()

@@ -91,6 +91,11 @@ export function drawSpace(view, space) {
   const outline = start.outline && svg("path", { class: "start area", d: `${linePath(start.outline)}Z` });
   view.draw("start", ...(outline ? [outline] : regionElements(start, "start", 5)));
   view.draw("goal", ...regionElements(space.goal, "goal", 5));
+  const { position } = space.task.uncertainty;
+  if (typeof position === "number") {
+    const [cx, cy] = anchor(space);
+    view.layer("start").append(svg("circle", { class: "error-disc", cx, cy, r: position }));
+  }
   view.draw("robot", ...robotAt(space, anchor(space)));
 }
 

@@ -41,7 +41,7 @@ def settings() -> list[tuple[str, Task]]:
     """Three named tasks, and one of them with errors that no plan withstands."""
     peg = named_task("peg-in-hole")
     worse = replace(peg.uncertainty, control=to_radians(22.0))
-    tasks = [(name, named_task(name)) for name in ("peg-in-hole", "cradle", "l-room")]
+    tasks = [(name, named_task(name)) for name in ("peg-in-hole", "cradle", "rails")]
     return [*tasks, ("peg-in-hole, control 22°", replace(peg, uncertainty=worse))]
 
 
